@@ -1,0 +1,26 @@
+# One interface target carries the language level, warnings and floating-point rules of every Welkin target.
+add_library(welkin_options INTERFACE)
+target_compile_features(welkin_options INTERFACE cxx_std_20)
+# -ffp-contract=off: the law must give the same numbers as GLSL, which does not fuse.
+target_compile_options(welkin_options INTERFACE -Wall -Wextra -Wshadow -ffp-contract=off -fno-math-errno)
+# Baseline, SSE4, AVX2 and AVX-512 (and NEON) are enough; each further target lengthens the build.
+target_compile_definitions(welkin_options INTERFACE "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV)")
+if(WELKIN_WERROR)
+  target_compile_options(welkin_options INTERFACE -Werror)
+endif()
+if(WELKIN_SANITIZE)
+  target_compile_options(welkin_options INTERFACE -fsanitize=${WELKIN_SANITIZE} -fno-sanitize-recover=all
+                                                  -fno-omit-frame-pointer -g1)
+  target_link_options(welkin_options INTERFACE -fsanitize=${WELKIN_SANITIZE})
+endif()
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+find_program(CCACHE ccache)
+if(CCACHE AND PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+endif()

@@ -1,0 +1,22 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace welkin {
+
+// A picture: rows from top to bottom, channels interleaved, linear floats unless said otherwise.
+struct Image {
+  int width = 0, height = 0, channels = 3;
+  std::vector<float> pixels;
+
+  Image() = default;
+  Image(int w, int h, int c)
+      : width(w), height(h), channels(c), pixels(static_cast<std::size_t>(w) * h * c) {}
+  float* at(int x, int y) { return pixels.data() + (static_cast<std::size_t>(y) * width + x) * channels; }
+  const float* at(int x, int y) const { return pixels.data() + (static_cast<std::size_t>(y) * width + x) * channels; }
+};
+
+// Peak signal-to-noise ratio in dB of two pictures of the same shape with values in [0, peak]; infinite when equal.
+double psnr(const Image& a, const Image& b, double peak = 1.0);
+
+}  // namespace welkin

@@ -1,0 +1,1 @@
+#include "welkin/realtime/shader_sources.hpp"

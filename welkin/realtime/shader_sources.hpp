@@ -1,0 +1,9 @@
+#pragma once
+#include <string_view>
+
+namespace welkin::realtime {
+
+// The text of a .glsl file of the house, by its path from the root ("welkin/light/phase.glsl"); empty when unknown.
+std::string_view shaderSource(std::string_view path);
+
+}  // namespace welkin::realtime

@@ -1,0 +1,105 @@
+#pragma once
+// A sky as plain values. Everything that renders or exports starts from a Scene.
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "welkin/atmosphere/settings.hpp"
+#include "welkin/base/fields.hpp"
+#include "welkin/density/layer.hpp"
+#include "welkin/light/settings.hpp"
+
+namespace welkin {
+
+// Wind at the height of the clouds.
+struct Wind {
+  float speed = 8.0f;     // m/s
+  float from = 4.7124f;   // rad, compass heading that it comes from
+};
+template <>
+struct FieldTable<Wind> {
+  static auto make() {
+    return fieldRows(
+        field<&Wind::speed, kMetresPerSecond>("speed", {0, 150}, {0, 40}, "speed of the wind that moves the layers"),
+        field<&Wind::from, kDegrees>("from", {0, 360}, {}, "where it comes from"));
+  }
+};
+
+// The ground: a sphere of one colour.
+struct Ground {
+  glm::vec3 albedo{0.13f, 0.15f, 0.08f};
+};
+template <>
+struct FieldTable<Ground> {
+  static auto make() {
+    return fieldRows(field<&Ground::albedo>("albedo", {0, 1}, {}, "share of light that the ground reflects"));
+  }
+};
+
+// Where the picture is taken from. East, north, up in metres; up is above the ground at the origin.
+struct Camera {
+  glm::dvec3 position{0.0, 0.0, 150.0};
+  float heading = 0.0f;  // rad, compass
+  float pitch = 0.14f;   // rad, above the horizon
+  float roll = 0.0f;     // rad
+  float fov = 1.0472f;   // rad, horizontal
+};
+template <>
+struct FieldTable<Camera> {
+  static auto make() {
+    return fieldRows(
+        field<&Camera::position, kMetres>("position", {-1e7, 1e7}, {-10000, 10000}, "east, north, up"),
+        field<&Camera::heading, kDegrees>("heading", {-360, 360}, {0, 360}, "compass heading of the view"),
+        field<&Camera::pitch, kDegrees>("pitch", {-90, 90}, {}, "angle above the horizon"),
+        field<&Camera::roll, kDegrees>("roll", {-180, 180}, {}, "tilt to the right"),
+        field<&Camera::fov, kDegrees>("fov", {1, 170}, {20, 110}, "horizontal angle of view"));
+  }
+};
+
+enum class ToneCurve { agx, aces, filmic, none };
+template <>
+struct ChoiceNames<ToneCurve> {
+  static constexpr std::array<std::string_view, 4> names{"agx", "aces", "filmic", "none"};
+};
+enum class ExposureMode { automatic, manual };
+template <>
+struct ChoiceNames<ExposureMode> {
+  static constexpr std::array<std::string_view, 2> names{"automatic", "manual"};
+};
+
+// From light to a picture.
+struct Film {
+  ExposureMode exposure = ExposureMode::manual;
+  float ev = 14.6f;  // EV100; with automatic exposure, added stops
+  float compensation = 0.0f;
+  ToneCurve tone = ToneCurve::agx;
+  float saturation = 1.0f;
+};
+template <>
+struct FieldTable<Film> {
+  static auto make() {
+    return fieldRows(
+        field<&Film::exposure>("exposure", "manual takes ev, automatic measures the picture"),
+        field<&Film::ev, kStops>("ev", {-10, 25}, {6, 17}, "exposure value at ISO 100: 15 in full sun, 10 at dusk"),
+        field<&Film::compensation, kStops>("compensation", {-10, 10}, {-3, 3}, "added brightness"),
+        field<&Film::tone>("tone", "tone curve of 8-bit pictures"),
+        field<&Film::saturation>("saturation", {0, 2}, {0.5, 1.5}, "1 leaves colours as they are"));
+  }
+};
+
+struct Scene {
+  std::string title;
+  float time = 0.0f;  // s
+  int seed = 0;
+  std::vector<Layer> layers{Layer{}};
+  std::vector<Sheet> sheets;
+  Sun sun;
+  Atmosphere atmosphere;
+  Wind wind;
+  Ground ground;
+  LightingSettings lighting;
+  Camera camera;
+  Film film;
+};
+
+}  // namespace welkin
