@@ -6,7 +6,10 @@
 #include <hwy/highway.h>
 
 #include "tests/parity/parity.hpp"
+#include "welkin/atmosphere/law-inl.hpp"
+#include "welkin/density/law-inl.hpp"
 #include "welkin/light/law-inl.hpp"
+#include "welkin/noise/law-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace welkin::HWY_NAMESPACE::law {

@@ -1,0 +1,8 @@
+#pragma once
+// The laws of atmosphere: scalar C++ reading.
+#include "welkin/light/law.hpp"
+
+namespace welkin::law {
+#include "welkin/base/law_begin.inc"
+#include "welkin/base/law_end.inc"
+}  // namespace welkin::law
