@@ -15,8 +15,10 @@ std::string checkNumber(const Field& field, double value) {
   if (!std::isfinite(value)) return "is not a finite number";
   if (value < field.hard.low || value > field.hard.high) {
     const std::string unit = *field.unit.symbol ? fmt::format(" {}", field.unit.symbol) : "";
-    if (std::isinf(field.hard.high)) return fmt::format("is {:g}, but must be at least {:g}{}", value, field.hard.low, unit);
-    if (std::isinf(field.hard.low)) return fmt::format("is {:g}, but must be at most {:g}{}", value, field.hard.high, unit);
+    if (std::isinf(field.hard.high))
+      return fmt::format("is {:g}, but must be at least {:g}{}", value, field.hard.low, unit);
+    if (std::isinf(field.hard.low))
+      return fmt::format("is {:g}, but must be at most {:g}{}", value, field.hard.high, unit);
     return fmt::format("is {:g}, outside {:g} to {:g}{}", value, field.hard.low, field.hard.high, unit);
   }
   return "";
@@ -33,10 +35,15 @@ std::string checkField(const Field& field, FieldValue& value) {
       return checkNumber(field, std::get<double>(value));
     case FieldKind::integer:
       if (!std::holds_alternative<std::int64_t>(value)) return "must be a whole number";
+      if (!field.allowed.empty() &&
+          std::find(field.allowed.begin(), field.allowed.end(), std::get<std::int64_t>(value)) == field.allowed.end())
+        return fmt::format("is {}, but must be one of {}", std::get<std::int64_t>(value),
+                           fmt::join(field.allowed, ", "));
       return checkNumber(field, static_cast<double>(std::get<std::int64_t>(value)));
     case FieldKind::boolean:
       return std::holds_alternative<bool>(value) ? "" : "must be true or false";
     case FieldKind::text:
+    case FieldKind::picture:
       return std::holds_alternative<std::string>(value) ? "" : "must be a text in quotes";
     case FieldKind::vector: {
       if (!std::holds_alternative<std::array<double, 3>>(value)) return "must be three numbers, [x, y, z]";

@@ -1,9 +1,11 @@
 #pragma once
 // Field tables: the one place where a parameter is declared. A struct of plain values specialises fieldTable<T> next to
 // its definition; the sky file, --set, the sliders, the docs and the random-scene tests read that table.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string>
@@ -28,6 +30,7 @@ inline constexpr Unit kDegrees{"deg", 3.14159265358979323846 / 180.0};
 inline constexpr Unit kMicrometres{"um"};
 inline constexpr Unit kStops{"EV"};
 inline constexpr Unit kPixels{"px"};
+inline constexpr Unit kKelvin{"K"};
 
 // A closed interval, in the unit of the file.
 struct Range {
@@ -35,7 +38,8 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
 };
 
-enum class FieldKind { real, integer, boolean, choice, text, vector };
+// `picture` is a text: the path of a picture, relative to the file that names it; empty for none.
+enum class FieldKind { real, integer, boolean, choice, text, picture, vector };
 
 // A value as the file writes it (in the file's unit); a choice is its name, a vector three numbers.
 using FieldValue = std::variant<double, std::int64_t, bool, std::string, std::array<double, 3>>;
@@ -53,6 +57,8 @@ struct Field {
   FieldValue (*get)(const void* object);
   // The value has the right alternative and lies in range (see checkField).
   void (*set)(void* object, const FieldValue& value);
+  std::vector<std::int64_t> allowed;  // the only values of an integer, when not empty
+  bool singlePrecision = false;       // numbers are floats inside
 };
 
 // Names of an enumeration's values, in order from 0: specialise `static constexpr std::array names{...}`.
@@ -70,8 +76,8 @@ namespace detail {
 template <class Owner>
 struct AnyMember {
   template <class T>
-    requires(!std::is_same_v<std::remove_cvref_t<T>, Owner>)
-  operator T() const;  // never defined: only asked for its type
+  requires(!std::is_same_v<std::remove_cvref_t<T>, Owner>) operator T()
+      const;  // never defined: only asked for its type
 };
 template <class T, class... Any>
 consteval std::size_t memberCount() {
@@ -94,7 +100,7 @@ FieldValue getMember(const void* object, const Unit& unit) {
   using Info = MemberOf<decltype(Member)>;
   using V = typename Info::Value;
   const V& v = static_cast<const typename Info::Owner*>(object)->*Member;
-  if constexpr (std::is_same_v<V, bool>)
+  if constexpr (std::is_same_v<V, bool> || std::is_same_v<V, std::string>)
     return v;
   else if constexpr (std::is_enum_v<V>)
     return std::string(ChoiceNames<V>::names[static_cast<std::size_t>(v)]);
@@ -102,8 +108,6 @@ FieldValue getMember(const void* object, const Unit& unit) {
     return static_cast<std::int64_t>(v);
   else if constexpr (std::is_floating_point_v<V>)
     return static_cast<double>(v) / unit.factor;
-  else if constexpr (std::is_same_v<V, std::string>)
-    return v;
   else
     return std::array<double, 3>{static_cast<double>(v.x) / unit.factor, static_cast<double>(v.y) / unit.factor,
                                  static_cast<double>(v.z) / unit.factor};
@@ -157,7 +161,11 @@ template <auto Member, Unit const& U = kNoUnit>
 Field field(const char* name, Range hard, Range soft, const char* help) {
   using Info = detail::MemberOf<decltype(Member)>;
   using V = typename Info::Value;
-  Field f{name, detail::kindOf<V>(), U, hard, soft.low == 0 && soft.high == 0 ? hard : soft, help, {}, {}, {}, {}};
+  Field f{name, detail::kindOf<V>(), U, hard, soft.low == 0 && soft.high == 0 ? hard : soft, help, {}, {}, {}, {}, {}};
+  if constexpr (detail::kindOf<V>() == FieldKind::vector)
+    f.singlePrecision = std::is_same_v<std::remove_cvref_t<decltype(V{}.x)>, float>;
+  else
+    f.singlePrecision = std::is_same_v<V, float>;
   if constexpr (std::is_enum_v<V>)
     for (const auto& choice : ChoiceNames<V>::names) f.choices.emplace_back(choice);
   f.get = [](const void* object) { return detail::getMember<Member>(object, U); };
@@ -171,6 +179,23 @@ Field field(const char* name, Range hard, Range soft, const char* help) {
 template <auto Member>
 Field field(const char* name, const char* help) {
   return field<Member>(name, Range{}, Range{}, help);
+}
+
+// For integers of which only a few values make sense.
+template <auto Member>
+Field field(const char* name, std::initializer_list<std::int64_t> allowed, const char* help) {
+  const Range range{static_cast<double>(std::min(allowed)), static_cast<double>(std::max(allowed))};
+  Field f = field<Member>(name, range, range, help);
+  f.allowed = allowed;
+  return f;
+}
+
+// For a text that is the path of a picture.
+template <auto Member>
+Field pictureField(const char* name, const char* help) {
+  Field f = field<Member>(name, help);
+  f.kind = FieldKind::picture;
+  return f;
 }
 
 // The parameters of T, in the order of its members.

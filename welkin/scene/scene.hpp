@@ -8,13 +8,14 @@
 #include "welkin/base/fields.hpp"
 #include "welkin/density/layer.hpp"
 #include "welkin/light/settings.hpp"
+#include "welkin/scene/quality.hpp"
 
 namespace welkin {
 
 // Wind at the height of the clouds.
 struct Wind {
-  float speed = 8.0f;     // m/s
-  float from = 4.7124f;   // rad, compass heading that it comes from
+  float speed = 8.0f;    // m/s
+  float from = 4.7124f;  // rad, compass heading that it comes from
 };
 template <>
 struct FieldTable<Wind> {
@@ -47,12 +48,11 @@ struct Camera {
 template <>
 struct FieldTable<Camera> {
   static auto make() {
-    return fieldRows(
-        field<&Camera::position, kMetres>("position", {-1e7, 1e7}, {-10000, 10000}, "east, north, up"),
-        field<&Camera::heading, kDegrees>("heading", {-360, 360}, {0, 360}, "compass heading of the view"),
-        field<&Camera::pitch, kDegrees>("pitch", {-90, 90}, {}, "angle above the horizon"),
-        field<&Camera::roll, kDegrees>("roll", {-180, 180}, {}, "tilt to the right"),
-        field<&Camera::fov, kDegrees>("fov", {1, 170}, {20, 110}, "horizontal angle of view"));
+    return fieldRows(field<&Camera::position, kMetres>("position", {-1e7, 1e7}, {-10000, 10000}, "east, north, up"),
+                     field<&Camera::heading, kDegrees>("heading", {-360, 360}, {0, 360}, "compass heading of the view"),
+                     field<&Camera::pitch, kDegrees>("pitch", {-90, 90}, {}, "angle above the horizon"),
+                     field<&Camera::roll, kDegrees>("roll", {-180, 180}, {}, "tilt to the right"),
+                     field<&Camera::fov, kDegrees>("fov", {1, 170}, {20, 110}, "horizontal angle of view"));
   }
 };
 
@@ -70,9 +70,10 @@ struct ChoiceNames<ExposureMode> {
 // From light to a picture.
 struct Film {
   ExposureMode exposure = ExposureMode::manual;
-  float ev = 14.6f;  // EV100; with automatic exposure, added stops
-  float compensation = 0.0f;
+  float ev = 14.6f;           // EV100
+  float compensation = 0.0f;  // stops, in both modes
   ToneCurve tone = ToneCurve::agx;
+  float whiteBalance = 6504.0f;  // K
   float saturation = 1.0f;
 };
 template <>
@@ -83,9 +84,13 @@ struct FieldTable<Film> {
         field<&Film::ev, kStops>("ev", {-10, 25}, {6, 17}, "exposure value at ISO 100: 15 in full sun, 10 at dusk"),
         field<&Film::compensation, kStops>("compensation", {-10, 10}, {-3, 3}, "added brightness"),
         field<&Film::tone>("tone", "tone curve of 8-bit pictures"),
+        field<&Film::whiteBalance, kKelvin>("white_balance", {2000, 20000}, {3500, 12000},
+                                            "colour temperature of the light that looks white; 6504 changes nothing"),
         field<&Film::saturation>("saturation", {0, 2}, {0.5, 1.5}, "1 leaves colours as they are"));
   }
 };
+
+inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4;
 
 struct Scene {
   std::string title;
@@ -100,6 +105,7 @@ struct Scene {
   LightingSettings lighting;
   Camera camera;
   Film film;
+  Quality quality;
 };
 
 }  // namespace welkin

@@ -1,0 +1,56 @@
+#pragma once
+// The command: parse, call, print. Each subcommand is one file that adds itself to the application.
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "welkin/scene/scene.hpp"
+
+namespace welkin::app {
+
+enum ExitCode { kOk = 0, kFailed = 1, kUsage = 2, kBadInput = 3, kNoOpenGl = 4 };
+
+// A wrong use of the command that the parser cannot see; ends with exit code 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The arguments by which every subcommand names and changes a sky.
+struct SkyArguments {
+  std::string sky;  // a file, the name of a preset, or empty for the default sky
+  std::string quality, camera, tone;
+  std::optional<double> time, ev;
+  std::optional<long long> seed;
+  std::vector<std::string> assignments;
+
+  enum class Need { optional, required };
+  void addTo(CLI::App& command, Need need);
+  void addPictureOptionsTo(CLI::App& command);
+  Scene scene() const;
+};
+
+struct Preset {
+  std::string name, genus, sentence, file;
+};
+
+// The presets that came with Welkin, sorted by name; empty when their folder is not found.
+std::vector<Preset> findPresets();
+
+// A folder next to the program, by its name in an installation and in the source tree; empty when neither is there.
+std::string dataFolder(const std::string& installed, const std::string& inSources);
+
+// `--json`, for a subcommand that programs read.
+std::shared_ptr<bool> addJsonFlag(CLI::App& command);
+
+void addRender(CLI::App& app);
+void addPresets(CLI::App& app);
+void addFields(CLI::App& app);
+void addCheck(CLI::App& app);
+void addInfo(CLI::App& app);
+void addDoctor(CLI::App& app);
+
+}  // namespace welkin::app

@@ -1,0 +1,5 @@
+#include "apps/welkin/command.hpp"
+
+namespace welkin::app {
+void addDoctor(CLI::App&) {}
+}  // namespace welkin::app

@@ -1,0 +1,96 @@
+// welkin fields: every parameter with unit, default, range and help.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/welkin/command.hpp"
+#include "welkin/scene/sections.hpp"
+
+namespace welkin::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* kindName(FieldKind kind) {
+  static constexpr const char* kNames[] = {"real", "integer", "boolean", "choice", "text", "picture", "vector"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string pathOf(const Section& section, const Field& field) {
+  const std::string table = tableName(section.path);
+  return table.empty() ? field.name : table + "." + field.name;
+}
+
+Json jsonOf(const Range& range) {
+  const auto bound = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
+  return {bound(range.low), bound(range.high)};
+}
+
+bool hasRange(const Field& f) {
+  return f.kind == FieldKind::real || f.kind == FieldKind::integer || f.kind == FieldKind::vector;
+}
+
+void printJson(const std::vector<Section>& sections) {
+  Json all = Json::array();
+  for (const Section& section : sections)
+    for (const Field& f : section.fields) {
+      Json row{{"path", pathOf(section, f)}, {"kind", kindName(f.kind)}, {"unit", f.unit.symbol}};
+      // Defaults such as 0.1f are shown as files write them.
+      const Json text = Json::parse(formatValue(f, f.defaultValue), nullptr, false);
+      row["default"] = text;
+      if (hasRange(f)) {
+        row["range"] = jsonOf(f.hard);
+        row["slider"] = jsonOf(f.soft);
+      }
+      if (f.kind == FieldKind::choice) row["choices"] = f.choices;
+      if (!f.allowed.empty()) row["choices"] = f.allowed;
+      row["help"] = f.help;
+      all.push_back(std::move(row));
+    }
+  fmt::print("{}\n", all.dump(2));
+}
+
+std::string limits(const Field& f) {
+  if (!f.allowed.empty()) return fmt::format("{}", fmt::join(f.allowed, " | "));
+  if (f.kind == FieldKind::choice) return fmt::format("{}", fmt::join(f.choices, " | "));
+  if (hasRange(f)) return fmt::format("{:g} .. {:g}", f.hard.low, f.hard.high);
+  return kindName(f.kind);
+}
+
+void printText(const std::vector<Section>& sections) {
+  for (const Section& section : sections) {
+    const std::string table = tableName(section.path);
+    const bool list = table == "layer" || table == "sheet";
+    fmt::print("{}  {}\n",
+               table.empty() ? "(top level)"
+               : list        ? fmt::format("[[{}]]", table)
+                             : fmt::format("[{}]", table),
+               section.help);
+    for (const Field& f : section.fields) {
+      const std::string unit = *f.unit.symbol ? fmt::format(" {}", f.unit.symbol) : "";
+      fmt::print("  {:<18} {} ({}{})  {}\n", f.name, formatValue(f, f.defaultValue), limits(f), unit, f.help);
+    }
+    fmt::print("\n");
+  }
+}
+
+}  // namespace
+
+void addFields(CLI::App& app) {
+  auto* command = app.add_subcommand("fields", "every parameter of a sky with unit, default, range and help");
+  const auto json = addJsonFlag(*command);
+  command->callback([json] {
+    Scene scene;
+    scene.sheets.emplace_back();
+    const std::vector<Section> sections = sectionsOf(scene);
+    if (*json)
+      printJson(sections);
+    else
+      printText(sections);
+  });
+}
+
+}  // namespace welkin::app

@@ -1,0 +1,22 @@
+#pragma once
+// Files as bytes: reading whole ones, and replacing them so that a reader never sees half of one.
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace welkin {
+
+// The whole file. Throws Error (badInput) when it cannot be read or is longer than `most` bytes.
+std::string readFile(const std::string& path, std::size_t most);
+
+// Replaces `path`: `write` fills the temporary file that it is handed (in the same folder), which is then renamed. When
+// anything fails, nothing is left behind, an old file is untouched, and Error (failed) says why.
+void writeFileAtomically(const std::string& path, const std::function<void(const std::string& temporary)>& write);
+void writeFileAtomically(const std::string& path, std::string_view bytes);
+
+// Writes bytes to a file and reports what the system reports late (a full disk). Throws Error (failed).
+void writeBytes(const std::string& path, std::string_view bytes);
+
+}  // namespace welkin

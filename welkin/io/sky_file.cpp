@@ -1,0 +1,264 @@
+#include "welkin/io/sky_file.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <tuple>
+
+#include "welkin/base/error.hpp"
+#include "welkin/io/file.hpp"
+#include "welkin/scene/sections.hpp"
+
+namespace welkin {
+
+namespace {
+
+constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr int kMaxDots = 32;
+constexpr std::int64_t kFormat = 1;
+
+struct Position {
+  std::size_t line = 1, column = 1;
+  bool operator<(const Position& o) const { return std::tie(line, column) < std::tie(o.line, o.column); }
+};
+
+Position positionOf(const toml::source_region& source) {
+  return {std::max<std::size_t>(source.begin.line, 1), std::max<std::size_t>(source.begin.column, 1)};
+}
+
+[[noreturn]] void refuse(const std::string& name, Position at, const std::string& what) {
+  throw Error(ErrorKind::badInput, fmt::format("{}:{}:{}", name, at.line, at.column), what);
+}
+
+// The parser recurses once for every part of a dotted key, so their number is bounded before it sees the text.
+void refuseLongKeys(std::string_view text, const std::string& name) {
+  Position at;
+  int dots = 0;
+  std::string_view quote;  // that ends the text we are in
+  for (std::size_t i = 0; i < text.size(); ++i, ++at.column) {
+    const char c = text[i];
+    if (!quote.empty()) {
+      if (c == '\\' && quote[0] == '"' && i + 1 < text.size() && text[i + 1] != '\n') {
+        ++i, ++at.column;
+      } else if (text.substr(i).starts_with(quote) || (c == '\n' && quote.size() == 1)) {
+        i += quote.size() - 1, at.column += quote.size() - 1;
+        quote = {};
+      }
+    } else if (c == '"' || c == '\'') {
+      const std::string_view three = c == '"' ? "\"\"\"" : "'''";
+      quote = text.substr(i).starts_with(three) ? three : three.substr(0, 1);
+      i += quote.size() - 1, at.column += quote.size() - 1;
+    } else if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '.') {
+      if (++dots > kMaxDots) refuse(name, at, "this key has too many parts");
+    } else if (c == '\n' || c == '=' || c == ',' || c == '[' || c == '{') {
+      dots = 0;
+    }
+    if (i < text.size() && text[i] == '\n') {
+      ++at.line;
+      at.column = 0;
+      if (quote.size() < 2) dots = 0;
+    }
+  }
+}
+
+toml::table parseToml(std::string_view text, const std::string& name) {
+  if (text.size() > kMaxBytes) refuse(name, {}, "a sky file is at most 1 MiB long");
+  refuseLongKeys(text, name);
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& e) {
+    refuse(name, positionOf(e.source()), std::string(e.description()));
+  }
+}
+
+std::optional<FieldValue> valueOf(const toml::node& node) {
+  if (const auto* v = node.as_floating_point()) return FieldValue(v->get());
+  if (const auto* v = node.as_integer()) return FieldValue(v->get());
+  if (const auto* v = node.as_boolean()) return FieldValue(v->get());
+  if (const auto* v = node.as_string()) return FieldValue(v->get());
+  const toml::array* list = node.as_array();
+  if (!list || list->size() != 3) return std::nullopt;
+  std::array<double, 3> vector{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<double> component = (*list)[i].is_number() ? (*list)[i].value<double>() : std::nullopt;
+    if (!component) return std::nullopt;
+    vector[i] = *component;
+  }
+  return FieldValue(vector);
+}
+
+std::string joined(const std::string& path, std::string_view name) {
+  return path.empty() ? std::string(name) : fmt::format("{}.{}", path, name);
+}
+
+class Reader {
+ public:
+  Reader(Scene& scene, const std::string& name) : scene_(scene), name_(name) {
+    folder_ = std::filesystem::path(name).parent_path();
+  }
+
+  void read(const toml::table& root) {
+    checkFormat(root);
+    sizeLists(root);
+    sections_ = sectionsOf(scene_);
+    readTable(root, "");
+    if (problem_) refuse(name_, problem_->first, problem_->second);
+  }
+
+ private:
+  // The tables of the document come sorted by name; of several problems, the reader wants to hear of the first.
+  void report(const toml::source_region& source, std::string what) {
+    const Position at = positionOf(source);
+    if (!problem_ || at < problem_->first) problem_ = {at, std::move(what)};
+  }
+
+  void checkFormat(const toml::table& root) {
+    const toml::node* node = root.get("format");
+    if (!node) refuse(name_, {}, fmt::format("a sky file says 'format = {}' in its first lines", kFormat));
+    const auto* format = node->as_integer();
+    if (!format || format->get() != kFormat)
+      refuse(name_, positionOf(node->source()),
+             fmt::format("format must be {}, the only one that this version reads", kFormat));
+  }
+
+  void sizeLists(const toml::table& root) {
+    const toml::node *layers = root.get("layer"), *sheets = root.get("sheet");
+    if (layers)
+      scene_.layers.assign(listSize(*layers, "layer", kMaxLayers), Layer{});
+    else if (sheets)
+      scene_.layers.clear();
+    if (sheets) scene_.sheets.assign(listSize(*sheets, "sheet", kMaxSheets), Sheet{});
+  }
+
+  std::size_t listSize(const toml::node& node, const char* list, std::size_t most) {
+    const toml::array* array = node.as_array();
+    if (!array || std::any_of(array->begin(), array->end(), [](const toml::node& n) { return !n.is_table(); })) {
+      report(node.source(), fmt::format("'{0}' is a list of tables; write [[{0}]]", list));
+      return 0;
+    }
+    if (array->size() > most) {
+      report((*array)[most].source(), fmt::format("a sky has at most {} [[{}]]", most, list));
+      return most;
+    }
+    return array->size();
+  }
+
+  void readTable(const toml::table& table, const std::string& path) {
+    const auto section =
+        std::find_if(sections_.begin(), sections_.end(), [&](const Section& s) { return s.path == path; });
+    const auto readKey = [&](const toml::key& key, const toml::node& node) {
+      const Field* field = section == sections_.end() ? nullptr : findField(*section, key.str());
+      if (field)
+        readValue(*section, *field, node);
+      else if (!(path.empty() && key == "format"))
+        readChild(path, key, node);
+    };
+    if (path == "quality" && table.contains("preset"))
+      readValue(*section, *findField(*section, "preset"), *table.get("preset"));
+    for (auto&& [key, node] : table)
+      if (!(path == "quality" && key == "preset")) readKey(key, node);
+  }
+
+  void readChild(const std::string& path, const toml::key& key, const toml::node& node) {
+    const std::string child = joined(path, key.str());
+    if (path.empty() && (child == "layer" || child == "sheet")) {
+      const toml::array* array = node.as_array();
+      const std::size_t size = child == "layer" ? scene_.layers.size() : scene_.sheets.size();
+      for (std::size_t i = 0; array && i < size; ++i)
+        if (const toml::table* element = (*array)[i].as_table()) readTable(*element, fmt::format("{}.{}", child, i));
+      return;
+    }
+    const bool known = std::any_of(sections_.begin(), sections_.end(), [&](const Section& s) {
+      return s.path == child || s.path.starts_with(child + ".");
+    });
+    if (!known) return report(key.source(), unknownKey(path, key.str()));
+    if (const toml::table* table = node.as_table())
+      readTable(*table, child);
+    else
+      report(node.source(), fmt::format("'{0}' is a table; write [{0}]", tableName(child)));
+  }
+
+  void readValue(const Section& section, const Field& field, const toml::node& node) {
+    std::optional<FieldValue> value = valueOf(node);
+    if (!value) value = field.kind == FieldKind::boolean ? FieldValue(std::string()) : FieldValue(false);
+    if (field.kind == FieldKind::picture)
+      if (auto* text = std::get_if<std::string>(&*value); text && !text->empty()) *text = (folder_ / *text).string();
+    const std::string wrong = assign(scene_, section, field, *value);
+    if (!wrong.empty()) report(node.source(), fmt::format("{} {}", joined(tableName(section.path), field.name), wrong));
+  }
+
+  std::string unknownKey(const std::string& path, std::string_view key) const {
+    std::vector<std::string> known;
+    const std::string prefix = path.empty() ? "" : path + ".";
+    for (const Section& s : sections_) {
+      if (s.path == path) {
+        for (const Field& f : s.fields) known.emplace_back(f.name);
+      } else if (s.path.starts_with(prefix)) {
+        const std::string rest = s.path.substr(prefix.size());
+        known.push_back(rest.substr(0, rest.find('.')));
+      }
+    }
+    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet"});
+    const std::string near = nearestName(key, known);
+    const std::string table = path.empty() ? "a sky" : tableName(path);
+    return fmt::format("'{}' is not a parameter of {}; {}", key, table,
+                       near.empty() ? "`welkin fields` lists them" : fmt::format("did you mean '{}'?", near));
+  }
+
+  Scene& scene_;
+  const std::string& name_;
+  std::filesystem::path folder_;
+  std::vector<Section> sections_;
+  std::optional<std::pair<Position, std::string>> problem_;
+};
+
+}  // namespace
+
+Scene parseSky(std::string_view text, const std::string& name) {
+  const toml::table root = parseToml(text, name);
+  Scene scene;
+  Reader(scene, name).read(root);
+  return scene;
+}
+
+Scene loadSky(const std::string& path) { return parseSky(readFile(path, kMaxBytes + 1), path); }
+
+std::string writeSky(const Scene& original) {
+  if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets)
+    throw Error(ErrorKind::badInput, "",
+                fmt::format("a sky has at most {} layers and {} sheets", kMaxLayers, kMaxSheets));
+  Scene scene = original;
+  const Scene defaults;
+  Scene listsOnly;
+  listsOnly.layers = scene.layers;
+  const bool defaultLayers = scene.sheets.empty() && sameScene(listsOnly, defaults);
+  Quality quality = qualityPreset(scene.quality.preset);
+
+  std::string out = fmt::format("format = {}\n", kFormat);
+  for (const Section& section : sectionsOf(scene)) {
+    if (defaultLayers && section.path.starts_with("layer.")) continue;
+    std::string rows;
+    for (const Field& f : section.fields) {
+      const FieldValue value = f.get(section.object);
+      const bool followsPreset = section.object == &scene.quality && f.name != std::string_view("preset");
+      if (value != (followsPreset ? f.get(&quality) : f.defaultValue))
+        rows += fmt::format("{} = {}\n", f.name, formatValue(f, value));
+    }
+    const bool element = std::count(section.path.begin(), section.path.end(), '.') == 1 &&
+                         (section.path.starts_with("layer.") || section.path.starts_with("sheet."));
+    if (section.path.empty())
+      out += rows + (scene.layers.empty() && scene.sheets.empty() ? "layer = []\n" : "");
+    else if (element)
+      out += fmt::format("\n[[{}]]\n{}", tableName(section.path), rows);
+    else if (!rows.empty())
+      out += fmt::format("\n[{}]\n{}", tableName(section.path), rows);
+  }
+  return out;
+}
+
+}  // namespace welkin

@@ -1,0 +1,95 @@
+#include "welkin/scene/sections.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace welkin {
+
+namespace {
+
+std::span<const Field> topLevelFields() {
+  static const std::vector<Field> kTable{
+      field<&Scene::title>("title", "what the sky is called"),
+      field<&Scene::time, kSeconds>("time", {0, 1e7}, {0, 3600}, "how long wind and growth have been at work"),
+      field<&Scene::seed>("seed", {0, 2147483647}, {0, 100}, "another seed, another sky")};
+  return kTable;
+}
+
+template <class T>
+Section section(std::string path, const char* help, T& object) {
+  return {std::move(path), help, fieldsOf<T>(), &object};
+}
+
+}  // namespace
+
+std::vector<Section> sectionsOf(Scene& scene) {
+  std::vector<Section> all{{"", "the sky as a whole", topLevelFields(), &scene}};
+  all.push_back(section("sun", "where the sun stands", scene.sun));
+  all.push_back(section("atmosphere", "the air and what is behind it", scene.atmosphere));
+  all.push_back(section("wind", "the wind that moves the layers", scene.wind));
+  all.push_back(section("ground", "the land below", scene.ground));
+  all.push_back(section("lighting", "how clouds are lit in real time", scene.lighting));
+  all.push_back(section("camera", "where the picture is taken from", scene.camera));
+  all.push_back(section("film", "from light to a picture", scene.film));
+  all.push_back(section("quality", "how much work the real-time renderer does", scene.quality));
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    Layer& layer = scene.layers[i];
+    const std::string path = fmt::format("layer.{}", i);
+    all.push_back(section(path, "a layer of volumetric clouds", layer.cloud));
+    all.push_back(section(path + ".weather", "where the clouds of the layer stand", layer.weather));
+    all.push_back(section(path + ".profile", "details of shape \"profile\"", layer.profile));
+    all.push_back(section(path + ".nubis", "details of shape \"nubis\"", layer.nubis));
+  }
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    all.push_back(section(fmt::format("sheet.{}", i), "a thin high cloud", scene.sheets[i]));
+  return all;
+}
+
+std::string tableName(std::string_view path) {
+  std::string name;
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string_view part = path.substr(begin, end - begin);
+    if (part.find_first_not_of("0123456789") != std::string_view::npos) {
+      if (!name.empty()) name += '.';
+      name += part;
+    }
+    begin = end + 1;
+  }
+  return name;
+}
+
+const Field* findField(const Section& section, std::string_view name) {
+  for (const Field& f : section.fields)
+    if (f.name == name) return &f;
+  return nullptr;
+}
+
+std::string assign(Scene& scene, const Section& section, const Field& field, FieldValue value) {
+  if (std::string wrong = checkField(field, value); !wrong.empty()) return wrong;
+  if (field.kind == FieldKind::picture) {
+    const std::string& path = std::get<std::string>(value);
+    std::error_code ignored;
+    if (!path.empty() && !std::filesystem::is_regular_file(path, ignored))
+      return fmt::format("names the picture '{}', which does not exist", path);
+  }
+  field.set(section.object, value);
+  if (section.object == &scene.quality && field.name == std::string_view("preset"))
+    scene.quality = qualityPreset(scene.quality.preset);
+  return "";
+}
+
+bool sameScene(const Scene& a, const Scene& b) {
+  Scene x = a, y = b;
+  const std::vector<Section> left = sectionsOf(x), right = sectionsOf(y);
+  if (left.size() != right.size()) return false;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (left[i].path != right[i].path) return false;
+    for (const Field& f : left[i].fields)
+      if (f.get(left[i].object) != f.get(right[i].object)) return false;
+  }
+  return true;
+}
+
+}  // namespace welkin
