@@ -12,10 +12,11 @@ namespace welkin::parity {
 
 struct Case {
   const char* name;
-  const char* body;         // GLSL text of `Vec4 f(Vec4 a, Vec4 b, Sampler2 s2, Sampler3 s3)`
+  const char* body;         // GLSL text of `Vec4 f(Vec4 a, Vec4 b, Sampler2 s2, Sampler3 s3, Sampler2Array sA)`
   double tolerance, scale;  // |x - y| <= tolerance max(|x|, scale)
   glm::vec4 lowA, highA, lowB, highB;  // inputs are uniform in these boxes
-  glm::vec4 (*scalar)(const glm::vec4& a, const glm::vec4& b, const TextureView& s2, const TextureView& s3);
+  glm::vec4 (*scalar)(const glm::vec4& a, const glm::vec4& b, const TextureView& s2, const TextureView& s3,
+                      const TextureView& sA);
 };
 
 struct Suite {
@@ -29,7 +30,7 @@ const Suite& suite();
 
 // Evaluates case `index` with the SIMD reading of the current target; `count` is a multiple of simdLanes().
 void evaluateSimd(std::size_t index, const glm::vec4* a, const glm::vec4* b, const TextureView& s2,
-                  const TextureView& s3, glm::vec4* out, std::size_t count);
+                  const TextureView& s3, const TextureView& sA, glm::vec4* out, std::size_t count);
 std::size_t simdLanes();
 
 }  // namespace welkin::parity

@@ -8,4 +8,7 @@
 #define WELKIN_BASE_LAW "welkin/base/law.glsl"
 #define WELKIN_LIGHT_LAW "welkin/light/phase.glsl"
 #define WELKIN_NOISE_LAW "welkin/noise/hash.glsl"
-#define WELKIN_LAW_FILES WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW
+#define WELKIN_DENSITY_LAW                                                                                  \
+  "welkin/density/remap.glsl", "welkin/density/space.glsl", "welkin/density/weather.glsl", "welkin/density/profile.glsl",                \
+      "welkin/density/nubis.glsl", "welkin/density/sheet.glsl"
+#define WELKIN_LAW_FILES WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW, WELKIN_DENSITY_LAW

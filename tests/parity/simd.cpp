@@ -18,13 +18,14 @@ namespace welkin::HWY_NAMESPACE::law {
 #define CASE(name, tolerance, scale, lowA, highA, lowB, highB, ...)                                          \
   [[maybe_unused]] static Vec4 case_##name([[maybe_unused]] const Vec4& a, [[maybe_unused]] const Vec4& b,   \
                                            [[maybe_unused]] const Sampler2& s2,                              \
-                                           [[maybe_unused]] const Sampler3& s3) __VA_ARGS__
+                                           [[maybe_unused]] const Sampler3& s3,                              \
+                                           [[maybe_unused]] const Sampler2Array& sA) __VA_ARGS__
 #include "tests/parity/cases.inc"
 #undef CASE
 #undef LAW
 #include "welkin/base/law_end.inc"
 
-using CaseFunction = Vec4 (*)(const Vec4&, const Vec4&, const Sampler2&, const Sampler3&);
+using CaseFunction = Vec4 (*)(const Vec4&, const Vec4&, const Sampler2&, const Sampler3&, const Sampler2Array&);
 static const CaseFunction kCases[] = {
 #define LAW(...)
 #define CASE(name, ...) &case_##name,
@@ -56,9 +57,9 @@ static void storeLanes(const Vec4& v, glm::vec4* p) {
 
 namespace welkin::HWY_NAMESPACE {
 static void evaluateCase(std::size_t index, const glm::vec4* a, const glm::vec4* b, const TextureView& s2,
-                         const TextureView& s3, glm::vec4* out, std::size_t count) {
+                         const TextureView& s3, const TextureView& sA, glm::vec4* out, std::size_t count) {
   for (std::size_t i = 0; i < count; i += law::laneCount())
-    law::storeLanes(law::kCases[index](law::loadLanes(a + i), law::loadLanes(b + i), s2, s3), out + i);
+    law::storeLanes(law::kCases[index](law::loadLanes(a + i), law::loadLanes(b + i), s2, s3, sA), out + i);
 }
 static std::size_t lanesOfTarget() { return law::laneCount(); }
 }  // namespace welkin::HWY_NAMESPACE
@@ -71,8 +72,8 @@ HWY_EXPORT(lanesOfTarget);
 
 namespace parity {
 void evaluateSimd(std::size_t index, const glm::vec4* a, const glm::vec4* b, const TextureView& s2,
-                  const TextureView& s3, glm::vec4* out, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(evaluateCase)(index, a, b, s2, s3, out, count);
+                  const TextureView& s3, const TextureView& sA, glm::vec4* out, std::size_t count) {
+  HWY_DYNAMIC_DISPATCH(evaluateCase)(index, a, b, s2, s3, sA, out, count);
 }
 std::size_t simdLanes() { return HWY_DYNAMIC_DISPATCH(lanesOfTarget)(); }
 }  // namespace parity

@@ -31,6 +31,8 @@ bool either(bool a, bool b) { return a || b; }
 bool invert(bool a) { return !a; }
 // True when no lane of the mask is set: the only question about lanes that may steer control flow.
 bool noneOf(bool m) { return !m; }
+// A condition that is the same for all lanes, as a mask.
+bool toMask(bool m) { return m; }
 
 float toReal(int x) { return float(x); }
 float toReal(uint x) { return float(x); }

@@ -39,6 +39,7 @@ inline bool both(bool a, bool b) { return a && b; }
 inline bool either(bool a, bool b) { return a || b; }
 inline bool invert(bool a) { return !a; }
 inline bool noneOf(bool m) { return !m; }
+inline bool toMask(bool m) { return m; }
 
 inline float toReal(Int x) { return static_cast<float>(x); }
 inline float toReal(Uint x) { return static_cast<float>(x); }

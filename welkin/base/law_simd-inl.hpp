@@ -107,6 +107,7 @@ HWY_INLINE Mask both(Mask a, Mask b) { return {hn::And(a.m, b.m)}; }
 HWY_INLINE Mask either(Mask a, Mask b) { return {hn::Or(a.m, b.m)}; }
 HWY_INLINE Mask invert(Mask a) { return {hn::Not(a.m)}; }
 HWY_INLINE bool noneOf(Mask m) { return hn::AllFalse(D(), m.m); }
+HWY_INLINE Mask toMask(bool m) { return {hn::Gt(hn::Set(D(), m ? 1.0f : 0.0f), hn::Zero(D()))}; }
 
 struct Vec2 {
   Real x, y;

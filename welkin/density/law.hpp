@@ -4,5 +4,11 @@
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
+#include "welkin/density/remap.glsl"
+#include "welkin/density/space.glsl"
+#include "welkin/density/weather.glsl"
+#include "welkin/density/profile.glsl"
+#include "welkin/density/nubis.glsl"
+#include "welkin/density/sheet.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

@@ -1,0 +1,68 @@
+// Thin high clouds: a drifting two-dimensional field of vertical optical depth (004 ch. 4.5.4).
+
+struct SheetParams {
+  float height, opticalDepth, coverage, warp;
+  Lattice fibres;   // stretched: x along the fibres
+  Lattice patches;  // where the sheet is
+  Lattice bend;     // the wind field that curls the fibres
+  int kind, seed, spare0, spare1;
+};
+
+const int kSheetCirrus = 0;
+const int kSheetCirrostratus = 1;
+const int kSheetCirrocumulus = 2;
+const int kSheetAltocumulus = 3;
+
+// Ridges of gradient noise, each octave finer by 2 and weaker by `gain`, 0..1.
+FN Real ridgedFbm(IN(Vec2) p, IN(Lattice) l, IN(float) gain, IN(int) octaves, IN(uint) seed) {
+  Real sum = 0.0f;
+  float weight = 1.0f;
+  float total = 0.0f;
+  for (int i = 0; i < octaves; ++i) {
+    Real ridge = 1.0f - abs(2.0f * latticeNoise(p, l, 1 << i, seed + uint(i)) - 1.0f);
+    sum += weight * ridge * ridge;
+    total += weight;
+    weight *= gain;
+  }
+  return sum / total;
+}
+
+// Rounded tufts of a cellular sheet, 0..1: 1 - F1^2 of the lattice subdivided `scale` times.
+FN Real tufts(IN(Vec2) p, IN(Lattice) l, IN(int) scale, IN(uint) seed) {
+  Vec2 g = latticePoint(p, l, float(scale));
+  Vec2 base = floor(g);
+  Real nearest = 9.0f;
+  for (int i = 0; i < 9; ++i) {
+    Vec2 cell = base + Vec2(float(i % 3 - 1), float(i / 3 - 1));
+    Uint h = hashCell2(toInt(cell.x) + l.cellX * scale, toInt(cell.y) + l.cellY * scale, seed);
+    Vec2 d = g - cell - Vec2(unitFromHash(h), unitFromHash(nextHash(h)));
+    nearest = min(nearest, dot(d, d));
+  }
+  return max(1.0f - nearest, 0.0f);
+}
+
+// Vertical optical depth of the sheet above (or below) p, relative to the anchor.
+FN Real sheetOpticalDepth(IN(Vec2) p, IN(SheetParams) s) {
+  uint seed = uint(s.seed) * 16u;
+  Vec2 bend = Vec2(latticeFbm(p, s.bend, seed + 1u), latticeFbm(p, s.bend, seed + 5u)) - Vec2(0.5f);
+  Real patch_ = 0.6f * latticeNoise(p + bend * s.warp, s.patches, 1, seed + 9u) +
+                0.4f * latticeNoise(p, s.patches, 2, seed + 10u);
+  Real open = mix(Real(0.85f), Real(0.05f), Real(s.coverage));
+  Real mask = smoothstep(open, open + 0.35f, patch_);
+  if (s.kind == kSheetCirrus) {
+    Vec2 fine = Vec2(latticeNoise(p, s.bend, 6, seed + 31u), latticeNoise(p, s.bend, 6, seed + 37u)) - Vec2(0.5f);
+    Real r = ridgedFbm(p + bend * (2.0f * s.warp) + fine * (0.12f * s.warp), s.fibres, 0.68f, 7, seed + 13u);
+    return s.opticalDepth * mask * smoothstep(0.22f, 0.85f, r) * 1.4f;
+  }
+  if (s.kind == kSheetCirrostratus) {
+    Real veil = 0.75f + 0.25f * ridgedFbm(p + bend * s.warp, s.fibres, 0.55f, 5, seed + 13u);
+    return s.opticalDepth * mask * veil;
+  }
+  int grain = 1;
+  if (s.kind == kSheetCirrocumulus) grain = 2;
+  Real t = 0.7f * tufts(p + bend * s.warp, s.fibres, grain, seed + 17u) +
+           0.3f * tufts(p + bend * s.warp, s.fibres, 3 * grain, seed + 19u);
+  Real rolls = latticeNoise(p, s.bend, 3, seed + 23u);
+  Real edge = mix(Real(0.62f), Real(0.2f), mask * (0.6f + 0.4f * rolls));
+  return s.opticalDepth * mask * smoothstep(edge, edge + 0.4f, t);
+}

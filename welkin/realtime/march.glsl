@@ -1,0 +1,231 @@
+// The march: what one ray sees of clouds and ground. One density sample per turn of the loop; the ray's state says what
+// the sample is for. That form is the fastest on wide SIMD machines, Mesa's software driver among them (design notes in
+// docs/realtime.md). The reader supplies, before this file, `struct Sky` and
+//   Vec3 skyExtinction(Vec3 q, Real footprint, Mask full, Sky sky)
+// which answers (extinction in 1/m, profile, extinction times precipitation) of all layers at a point of cloud space.
+
+struct MarchParams {
+  PlanetParams planet;
+  vec4 sun;             // xyz: direction toward the sun, w: powder
+  vec4 ambientSky;      // mean radiance of the sky in kcd/m^2, w: ambient gain
+  vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
+  vec4 groundAlbedo;    // w: 1 when the ground is drawn
+  vec4 skyIrradiance;   // on the ground, klx; w: albedo of the droplets
+  float bottom, top, stepScale, minStep;
+  float maxStep, maxDistance, earlyExit, footprintPerMetre;
+  float contribution, octaveExtinction, eccentricity, octaveGain;
+  float forwardG, backwardG, backwardWeight, rainAbsorption;
+  int octaves, lightSteps, ambientSteps, refine;
+  int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
+  int maxTurns, groundSteps, spare0, spare1;
+};
+
+struct MarchResult {
+  Vec3 radiance;      // light that the clouds send, without the air in between
+  Real transmittance;
+  Real depth;         // opacity-weighted mean distance, m; maxDistance where there is no cloud
+  Real ground;        // share of sunlight that reaches the ground where the ray meets it; -1 where it does not
+  Real groundDepth;   // distance of that point
+  Real samples;       // density samples taken
+};
+
+const float kLightFirst = 15.0f;   // m, first step toward the sun
+const float kLightRatio = 1.6f;    // each step against the last
+const float kAmbientFirst = 60.0f;
+const float kAmbientRatio = 2.5f;
+
+// A fixed pseudo-random vector in [-1, 1]^3 for the k-th sample of the cone (004 ch. 4.5.3).
+FN Vec3 coneKernel(IN(Real) k) {
+  Uint h = hashUint(toUint(toInt(k)) + 17u);
+  Real x = unitFromHash(h);
+  Real y = unitFromHash(nextHash(h));
+  Real z = unitFromHash(nextHash(nextHash(h)));
+  return Vec3(x, y, z) * 2.0f - Vec3(1.0f);
+}
+
+// Sunlight scattered toward the eye: octaves of multiple scattering (Wrenninge 2013, Hillaire 2016). `tau` is the
+// optical depth toward the sun.
+FN Real sunScattering(IN(Real) cosTheta, IN(Real) tau, IN(MarchParams) m) {
+  Real sum = 0.0f;
+  float a = 1.0f;
+  float b = 1.0f;
+  float c = 1.0f;
+  for (int i = 0; i < m.octaves; ++i) {
+    Real phase = mix(phaseHenyeyGreenstein(cosTheta, Real(m.forwardG * c)),
+                     phaseHenyeyGreenstein(cosTheta, Real(m.backwardG * c)), Real(m.backwardWeight));
+    sum += a * phase * exp(-b * tau);
+    if (i == 0) a *= m.octaveGain;
+    a *= m.contribution;
+    b *= m.octaveExtinction;
+    c *= m.eccentricity;
+  }
+  return sum;
+}
+
+// Marches the ray from the anchor along `dir` to `limit` (m). `sunLow` and `sunHigh`: sunlight (klx) at the bottom and
+// top of the clouds. `jitter`: two numbers in [0, 1) that place the steps.
+FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sunHigh, IN(Vec2) jitter,
+                     IN(MarchParams) m, IN(Sky) sky) {
+  Vec3 sun = Vec3(m.sun.x, m.sun.y, m.sun.z);
+  Vec3 up = Vec3(m.planet.up.x, m.planet.up.y, m.planet.up.z);
+  Vec2 outer = crossings(dir, m.top, m.planet);
+  Vec2 inner = crossings(dir, m.bottom, m.planet);
+  Vec2 surface = crossings(dir, 0.0f, m.planet);
+  Mask hitsGround = surface.x > 0.0f;
+  Real tGround = select(hitsGround, surface.x, Real(1e9f));
+  Real t = max(outer.x, 0.0f);
+  Real tEnd = outer.y;
+  if (m.planet.altitude < m.bottom) {
+    t = inner.y;
+  } else {
+    tEnd = select(inner.x > 0.0f, min(tEnd, inner.x), tEnd);
+  }
+  tEnd = min(min(tEnd, min(tGround, limit)), m.maxDistance);
+  Mask drawGround = both(both(hitsGround, tGround <= limit), toMask(m.groundAlbedo.w > 0.0f));
+
+  Real cosTheta = dot(dir, sun);
+  Real steps = mix(Real(float(m.fixedStepsHorizon)), Real(float(m.fixedSteps)), abs(dot(dir, up)));
+  Real rayStep = max((tEnd - t) / max(steps, 1.0f), 1.0f);
+  Real lastStep = clamp(t * m.stepScale, m.minStep, m.maxStep);
+  if (m.fixedSteps > 0) lastStep = rayStep;
+  t += jitter.x * lastStep;
+
+  // mode: 0 along the ray, 1 toward the sun, 2 upward, 3 from the ground toward the sun, 4 done.
+  Real mode = select(t < tEnd, Real(0.0f), select(drawGround, Real(3.0f), Real(4.0f)));
+  Real k = 0.0f;          // number of the sample within its mode
+  Real fineLeft = 0.0f;   // refined steps to go
+  Real zeros = 0.0f;      // full samples without cloud, one after the other
+  Mask searching = toMask(m.cheapSearch != 0);
+  Real transmittance = 1.0f;
+  Vec3 radiance = Vec3(0.0f);
+  Real depthSum = 0.0f;
+  Real depthWeight = 0.0f;
+  Real tau = 0.0f;        // toward the sun
+  Real tauUp = 0.0f;
+  Real sigma = 0.0f;      // at the point that is being lit
+  Real rain = 0.0f;
+  Real lightAt = 0.0f;
+  Real lightStep = 0.0f;
+  Real samples = 0.0f;
+  Real groundTau = 0.0f;
+  Real slant = max(dot(sun, up), 0.02f);
+  float shell = m.top - m.bottom;
+
+  for (int turn = 0; turn < m.maxTurns; ++turn) {
+    Mask along = mode < 0.5f;
+    Mask toSun = both(mode > 0.5f, mode < 1.5f);
+    Mask upward = both(mode > 1.5f, mode < 2.5f);
+    Mask fromGround = both(mode > 2.5f, mode < 3.5f);
+    if (noneOf(mode < 3.5f)) break;
+
+    // Where the sample is.
+    Vec3 offset = sun * (lightAt + lightStep * jitter.y);
+    if (m.nubis != 0) offset = sun * lightAt + coneKernel(k) * (lightStep * 0.5f * k);
+    offset = select(upward, up * (lightAt + lightStep * jitter.y), offset);
+    Vec3 ground = sun * ((m.bottom + shell * (k + jitter.y) / float(m.groundSteps)) / slant);
+    Vec3 d = dir * select(fromGround, tGround, t);
+    d = d + select(fromGround, ground, select(along, Vec3(0.0f), offset));
+    Vec3 q = cloudSpace(d, m.planet);
+    Real spacing = clamp(t * m.stepScale, m.minStep, m.maxStep);
+    if (m.fixedSteps > 0) spacing = rayStep;
+    Real footprint = max(t * m.footprintPerMetre, select(along, 0.5f * spacing, max(0.5f * spacing, 0.3f * lightStep)));
+    Mask full = invert(both(along, searching));
+    if (m.nubis != 0) full = both(full, either(along, transmittance > 0.7f));
+    Vec3 found = skyExtinction(q, footprint, full, sky);
+    samples += select(mode < 3.5f, Real(1.0f), Real(0.0f));
+
+    // Along the ray: find cloud, refine its edge, then light the point.
+    Mask cloud = both(along, found.x > 0.0f);
+    Real dt = spacing;
+    if (m.fixedSteps == 0) {
+      dt = select(fineLeft > 0.5f, 0.25f * spacing, select(found.y <= 0.0f, 1.8f * spacing, spacing));
+    }
+    Mask backUp = both(cloud, both(fineLeft < 0.5f, both(transmittance > 0.98f, toMask(m.refine != 0))));
+    Mask foundCheap = both(cloud, searching);
+    Mask light = both(cloud, invert(either(backUp, foundCheap)));
+    Mask empty = both(along, invert(cloud));
+    searching = both(searching, invert(foundCheap));
+    if (m.cheapSearch != 0) {
+      zeros = select(both(empty, invert(searching)), zeros + 1.0f, select(light, Real(0.0f), zeros));
+      Mask lost = zeros > 5.5f;
+      searching = either(searching, lost);
+      zeros = select(lost, Real(0.0f), zeros);
+    }
+    t = select(empty, t + dt, select(backUp, t - lastStep, t));
+    lastStep = select(empty, dt, lastStep);
+    fineLeft = select(backUp, Real(10.0f), select(empty, max(fineLeft - 1.0f, 0.0f), fineLeft));
+    sigma = select(light, found.x, sigma);
+    rain = select(light, found.z / max(found.x, 1e-9f), rain);
+    tau = select(light, Real(0.0f), tau);
+    tauUp = select(light, Real(0.0f), tauUp);
+
+    // Toward the sun, then upward.
+    tau += select(toSun, found.x * lightStep, Real(0.0f));
+    tauUp += select(upward, found.x * lightStep, Real(0.0f));
+    groundTau += select(fromGround, found.x * (shell / (float(m.groundSteps) * slant)), Real(0.0f));
+    k = select(either(light, empty), Real(0.0f), k + 1.0f);
+    Mask sunDone = both(toSun, k > float(m.lightSteps) - 0.5f);
+    Mask upDone = both(upward, k > float(m.ambientSteps) - 0.5f);
+    Real first = kLightFirst;
+    if (m.nubis != 0) first = Real(shell * 0.03f);
+    lightAt = select(light, Real(0.0f), select(either(toSun, upward), lightAt + lightStep, lightAt));
+    if (m.nubis != 0) lightAt = select(either(light, both(toSun, k < 4.5f)), first * (k + 1.0f),
+                                       select(toSun, first * 18.0f, lightAt));
+    lightStep = select(light, first, lightStep);
+    if (m.nubis == 0) lightStep = select(both(toSun, invert(sunDone)), lightStep * kLightRatio, lightStep);
+    lightStep = select(both(upward, invert(upDone)), lightStep * kAmbientRatio, lightStep);
+    mode = select(light, Real(1.0f), mode);
+    Mask startUp = both(sunDone, toMask(m.ambientSteps > 0));
+    lightAt = select(startUp, Real(0.0f), lightAt);
+    lightStep = select(startUp, Real(kAmbientFirst), lightStep);
+    k = select(startUp, Real(0.0f), k);
+    mode = select(startUp, Real(2.0f), mode);
+
+    // Shade and step on.
+    Mask shade = either(both(sunDone, invert(startUp)), upDone);
+    Real height = saturate((q.z - m.bottom) / shell);
+    Vec3 sunlight = mix(sunLow, sunHigh, height);
+    Real thick = tau * (1.0f + m.rainAbsorption * rain);
+    Vec3 source = Vec3(0.0f);
+    if (m.nubis != 0) {
+      Real energy = 2.0f * exp(-thick) * (1.0f - exp(-2.0f * thick)) * phaseHenyeyGreenstein(cosTheta, Real(m.forwardG));
+      source = sunlight * energy;
+      source += xyz(m.ambientSky) * (m.ambientSky.w * (0.35f + 0.65f * height));
+      source += xyz(m.ambientGround) * (0.25f * m.ambientGround.w * (1.0f - height));
+    } else {
+      Real powder = mix(Real(1.0f), 1.0f - exp(-2.0f * tau), Real(m.sun.w));
+      source = sunlight * (sunScattering(cosTheta, thick, m) * powder);
+      Real above = sigma * max(q.z - m.bottom, 0.0f);
+      source += xyz(m.ambientSky) * (m.ambientSky.w * (0.75f * exp(-0.12f * tauUp) + 0.06f));
+      source += xyz(m.ambientGround) * (m.ambientGround.w * (0.5f * exp(-0.072f * above) + 0.03f));
+    }
+    Real stride = select(fineLeft > 0.5f, 0.25f * spacing, spacing);
+    Real kept = exp(-sigma * stride);
+    Real weight = select(shade, transmittance * (1.0f - kept), Real(0.0f));
+    radiance += source * (weight * m.skyIrradiance.w);
+    depthSum += weight * t;
+    depthWeight += weight;
+    transmittance = select(shade, transmittance * kept, transmittance);
+    t = select(shade, t + stride, t);
+    lastStep = select(shade, stride, lastStep);
+    fineLeft = select(shade, max(fineLeft - 1.0f, 0.0f), fineLeft);
+    mode = select(shade, Real(0.0f), mode);
+    k = select(shade, Real(0.0f), k);
+
+    // The ray's end, then the ground's.
+    Mask rayDone = both(mode < 0.5f, either(t >= tEnd, transmittance < m.earlyExit));
+    Mask needGround = both(drawGround, transmittance > 0.004f);
+    mode = select(rayDone, select(needGround, Real(3.0f), Real(4.0f)), mode);
+    k = select(rayDone, Real(0.0f), k);
+    mode = select(both(fromGround, k > float(m.groundSteps) - 0.5f), Real(4.0f), mode);
+  }
+
+  MarchResult r;
+  r.radiance = radiance;
+  r.transmittance = select(transmittance < m.earlyExit, Real(0.0f), transmittance);
+  r.depth = select(depthWeight > 1e-4f, depthSum / max(depthWeight, 1e-4f), Real(m.maxDistance));
+  r.ground = select(drawGround, exp(-min(groundTau, 40.0f)), Real(-1.0f));
+  r.groundDepth = tGround;
+  r.samples = samples;
+  return r;
+}
