@@ -22,7 +22,6 @@ Quality qualityPreset(QualityPreset preset) {
     case QualityPreset::ultra:
       q.historyScale = 1;
       q.interleave = 1;
-      q.samples = 4;
       q.stepScale = 0.7f;
       q.lightSteps = 12;
       q.ambientSteps = 4;

@@ -14,7 +14,6 @@ struct Quality {
   QualityPreset preset = QualityPreset::high;
   int historyScale = 2;
   int interleave = 2;
-  int samples = 1;
   float stepScale = 1.0f;
   int lightSteps = 9;
   int ambientSteps = 3;
@@ -22,6 +21,7 @@ struct Quality {
   bool earlyExit = true;
   bool jitter = true;
   bool reprojection = true;
+  bool averageHistory = false;
   bool cheapSearch = true;
   bool stepsByAngle = true;
 
@@ -34,7 +34,6 @@ struct FieldTable<Quality> {
         field<&Quality::preset>("preset", "sets every other value of this table; values given besides it win"),
         field<&Quality::historyScale>("history_scale", {1, 2}, "pixels of the picture to one of the cloud history"),
         field<&Quality::interleave>("interleave", {1, 2, 4}, "each frame marches one pixel in a block of this edge"),
-        field<&Quality::samples>("samples", {1, 1024}, {1, 16}, "marches a pixel, averaged"),
         field<&Quality::stepScale>("step_scale", {0.05, 20}, {0.25, 4}, "length of the march's steps, as a multiple"),
         field<&Quality::lightSteps>("light_steps", {1, 16}, {}, "samples toward the sun"),
         field<&Quality::ambientSteps>("ambient_steps", {0, 8}, {}, "samples toward the zenith"),
@@ -42,6 +41,8 @@ struct FieldTable<Quality> {
         field<&Quality::earlyExit>("early_exit", "ends a march where the cloud has become opaque"),
         field<&Quality::jitter>("jitter", "shifts the samples of every pixel and frame: noise instead of bands"),
         field<&Quality::reprojection>("reprojection", "reuses the pixels of earlier frames"),
+        field<&Quality::averageHistory>("average_history",
+                                        "softens reprojected pixels by the mean of their neighbours (000 ch. 4.4)"),
         field<&Quality::cheapSearch>("cheap_search", "looks for clouds without their detail; nubis layers"),
         field<&Quality::stepsByAngle>("steps_by_angle", "64 steps at the zenith, 128 at the horizon; nubis layers"));
   }
