@@ -6,9 +6,13 @@
 #include "welkin/noise/law.hpp"
 
 #define WELKIN_BASE_LAW "welkin/base/law.glsl"
-#define WELKIN_LIGHT_LAW "welkin/light/phase.glsl"
+#define WELKIN_LIGHT_LAW "welkin/light/phase.glsl", "welkin/light/transmittance.glsl"
 #define WELKIN_NOISE_LAW "welkin/noise/hash.glsl"
 #define WELKIN_DENSITY_LAW                                                                                  \
   "welkin/density/remap.glsl", "welkin/density/space.glsl", "welkin/density/weather.glsl", "welkin/density/profile.glsl",                \
       "welkin/density/nubis.glsl", "welkin/density/sheet.glsl"
-#define WELKIN_LAW_FILES WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW, WELKIN_DENSITY_LAW
+#define WELKIN_ATMOSPHERE_LAW                                                \
+  "welkin/atmosphere/atmosphere.glsl", "welkin/atmosphere/scattering.glsl", \
+      "welkin/atmosphere/models.glsl", "welkin/atmosphere/sky.glsl"
+#define WELKIN_LAW_FILES \
+  WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW, WELKIN_DENSITY_LAW, WELKIN_ATMOSPHERE_LAW

@@ -10,6 +10,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/base/law_begin.inc"
+#include "welkin/atmosphere/atmosphere.glsl"
+#include "welkin/atmosphere/scattering.glsl"
+#include "welkin/atmosphere/models.glsl"
+#include "welkin/atmosphere/sky.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::HWY_NAMESPACE::law
 HWY_AFTER_NAMESPACE();

@@ -4,5 +4,9 @@
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
+#include "welkin/atmosphere/atmosphere.glsl"
+#include "welkin/atmosphere/scattering.glsl"
+#include "welkin/atmosphere/models.glsl"
+#include "welkin/atmosphere/sky.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

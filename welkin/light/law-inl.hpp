@@ -11,6 +11,7 @@ HWY_BEFORE_NAMESPACE();
 namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/base/law_begin.inc"
 #include "welkin/light/phase.glsl"
+#include "welkin/light/transmittance.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::HWY_NAMESPACE::law
 HWY_AFTER_NAMESPACE();

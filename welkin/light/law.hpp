@@ -5,5 +5,6 @@
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
 #include "welkin/light/phase.glsl"
+#include "welkin/light/transmittance.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

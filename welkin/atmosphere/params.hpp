@@ -1,0 +1,31 @@
+#pragma once
+// From settings to the uniform values of the atmosphere's laws.
+#include <glm/vec3.hpp>
+
+#include "welkin/atmosphere/law.hpp"
+#include "welkin/atmosphere/settings.hpp"
+
+namespace welkin {
+
+// Irradiance of the sun outside the atmosphere on a plane facing it, klx in linear Rec.709. Its luminance is 128; its
+// colour is that of the extraterrestrial spectrum of ASTM G173 (xy .3218 .3311) seen by the CIE 1931 observer.
+inline constexpr glm::vec3 kSunIrradiance{139.512f, 125.120f, 122.634f};
+inline constexpr double kSunAngularDiameter = 0.533 * 3.14159265358979323846 / 180.0;  // rad
+inline constexpr glm::vec3 kDefaultGroundAlbedo{0.13f, 0.15f, 0.08f};
+
+// Luminance of linear Rec.709.
+inline float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+
+// Everything that the laws of the air need. `sunDirection` is a unit vector, `cameraAltitude` in m above the ground
+// (taken as at least 1 m).
+law::AtmosphereParams makeAtmosphereParams(const Atmosphere& atmosphere, const glm::vec3& sunDirection,
+                                           double cameraAltitude,
+                                           const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
+
+// Preetham's sky of this turbidity (1.8 to 10). Below the horizon, where the model ends, the sun's sky is that of sunset
+// dimmed by 2^(1.1 elevation in degrees), as twilight is.
+law::PreethamParams makePreethamParams(double turbidity, const glm::vec3& sunDirection);
+
+law::GradientParams makeGradientParams(const Atmosphere& atmosphere);
+
+}  // namespace welkin
