@@ -22,6 +22,18 @@ const float kTransmittanceWidth = 256.0f;
 const float kTransmittanceHeight = 64.0f;
 const int kTransmittanceSteps = 80;
 
+// asin with an error of some 1e-7 rad in every reading (polynomial of the Cephes library's asinf): drivers' acos may be
+// off by 1e-4, which shows at the horizon.
+FN Real arcSine(IN(Real) x) {
+  Real a = min(abs(x), 1.0f);
+  Real folded = sqrt(0.5f * (1.0f - a));
+  Real y = select(a > 0.5f, folded, a);
+  Real z = y * y;
+  Real p = (((0.042163199f * z + 0.024181311f) * z + 0.0454700260f) * z + 0.0749530027f) * z + 0.166667524f;
+  Real r = y + y * z * p;
+  return sign(x) * select(a > 0.5f, 1.57079633f - 2.0f * r, r);
+}
+
 // Maps [0, 1] onto the centres of the first and last of n texels, and back.
 FN Real texelFromUnit(IN(Real) x, float n) { return (0.5f + x * (n - 1.0f)) / n; }
 FN Real unitFromTexel(IN(Real) u, float n) { return saturate((u * n - 0.5f) / (n - 1.0f)); }

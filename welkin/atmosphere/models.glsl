@@ -23,7 +23,7 @@ struct PreethamParams {
 // Perez' distribution (000 eq. 2.36).
 FN Vec3 perez(IN(PreethamParams) p, IN(Real) cosZenith, IN(Real) cosSun) {
   Real inverse = 1.0f / max(cosZenith, 0.001f);
-  Real gamma = acos(clamp(cosSun, -1.0f, 1.0f));
+  Real gamma = 1.57079633f - arcSine(cosSun);
   return (Vec3(1.0f) + xyz(p.a) * exp(xyz(p.b) * inverse)) *
          (Vec3(1.0f) + xyz(p.c) * exp(xyz(p.d) * gamma) + xyz(p.e) * (cosSun * cosSun));
 }

@@ -29,48 +29,57 @@ FN Vec3 groundRadiance(IN(Vec3) albedo, IN(Vec3) sunIrradiance, IN(Real) sunCosi
   return albedo * (sunIrradiance * max(sunCosine, 0.0f) + skyIrradiance) * 0.318309886f;
 }
 
+// One direction of multiScatteringTexel: adds the second order's radiance for isotropic scattering and the share of
+// uniform light that is scattered once more.
+FN void addSecondOrder(IN(Sampler2) transmittance, IN(AtmosphereParams) air, IN(Real) altitude, IN(Real) sunCosine,
+                       float cosZenith, float azimuth, INOUT(Vec3) second, INOUT(Vec3) again) {
+  Real cosSun = cosZenith * sunCosine +
+                sqrt(1.0f - cosZenith * cosZenith) * cos(azimuth) * sqrt(max(1.0f - sunCosine * sunCosine, 0.0f));
+  Mask hit = cosZenith < horizonCosine(air, altitude);
+  Real end = select(hit, distanceToGround(air, altitude, cosZenith), distanceToTop(air, altitude, cosZenith));
+  Real t0 = lowestPoint(air, altitude, cosZenith, 0.0f, end);
+  Real s0 = -sqrt(t0);
+  Real ds = (sqrt(end - t0) - s0) / toReal(kMultiScatteringSteps);
+  Real t = 0.0f;
+  Vec3 through = Vec3(1.0f);
+  for (int k = 0; k < kMultiScatteringSteps; ++k) {
+    Real middle = s0 + ds * (toReal(k) + 0.5f);
+    Real next = middle + 0.5f * ds;
+    Real tNext = t0 + next * abs(next);
+    Real there = t0 + middle * abs(middle);
+    Real dt = max(tNext - t, 0.0f);
+    Real h = altitudeAlong(air, altitude, cosZenith, there);
+    Vec3 d = airDensity(air, h);
+    Vec3 scattering = xyz(air.rayleigh) * d.x + xyz(air.mieScattering) * d.y;
+    Vec3 extinction = xyz(air.rayleigh) * d.x + xyz(air.mieExtinction) * d.y + xyz(air.ozone) * d.z;
+    Vec3 share = through * scattering * stepIntegral(extinction, dt);
+    Real sun = sunCosineAlong(air, altitude, sunCosine, cosSun, there, h);
+    second += share * lookupTransmittanceToSun(transmittance, air, h, sun) * kInv4Pi;
+    again += share;
+    through = through * exp(-extinction * dt);
+    t = tNext;
+  }
+  Real sunGround = sunCosineAlong(air, altitude, sunCosine, cosSun, end, 0.0f);
+  Vec3 direct = lookupTransmittanceToSun(transmittance, air, 0.0f, sunGround);
+  Vec3 bounce = through * groundRadiance(xyz(air.groundAlbedo), direct, sunGround, Vec3(0.0f));
+  second += select(hit, bounce, Vec3(0.0f));
+}
+
 // One texel: radiance of all orders from the second on, as if each were isotropic: L2 / (1 - f) (Hillaire 2020 eq. 10).
 FN Vec4 multiScatteringTexel(IN(Sampler2) transmittance, IN(AtmosphereParams) air, IN(Vec2) uv) {
   Vec2 place = altitudeSunFromUv(air, uv);
-  Real sunSine = sqrt(max(1.0f - place.y * place.y, 0.0f));
+  float rings = toReal(kMultiScatteringRings);
   Vec3 second = Vec3(0.0f);
   Vec3 again = Vec3(0.0f);
   for (int i = 0; i < kMultiScatteringRings; ++i) {
     for (int j = 0; j < kMultiScatteringRings; ++j) {
-      float cosZenith = (2.0f * toReal(i) + 1.0f) / toReal(kMultiScatteringRings) - 1.0f;
-      float azimuth = 3.14159265f * (toReal(j) + 0.5f) / toReal(kMultiScatteringRings);
-      Real cosSun = cosZenith * place.y + sqrt(1.0f - cosZenith * cosZenith) * cos(azimuth) * sunSine;
-      Mask hit = cosZenith < horizonCosine(air, place.x);
-      Real end = select(hit, distanceToGround(air, place.x, cosZenith), distanceToTop(air, place.x, cosZenith));
-      Real t0 = lowestPoint(air, place.x, cosZenith, 0.0f, end);
-      Real s0 = -sqrt(t0);
-      Real ds = (sqrt(end - t0) - s0) / toReal(kMultiScatteringSteps);
-      Real t = 0.0f;
-      Vec3 through = Vec3(1.0f);
-      for (int k = 0; k < kMultiScatteringSteps; ++k) {
-        Real middle = s0 + ds * (toReal(k) + 0.5f);
-        Real next = middle + 0.5f * ds;
-        Real tNext = t0 + next * abs(next);
-        Real there = t0 + middle * abs(middle);
-        Real h = altitudeAlong(air, place.x, cosZenith, there);
-        Vec3 d = airDensity(air, h);
-        Vec3 scattering = xyz(air.rayleigh) * d.x + xyz(air.mieScattering) * d.y;
-        Vec3 extinction = xyz(air.rayleigh) * d.x + xyz(air.mieExtinction) * d.y + xyz(air.ozone) * d.z;
-        Vec3 share = through * scattering * stepIntegral(extinction, tNext - t);
-        Real sun = sunCosineAlong(air, place.x, place.y, cosSun, there, h);
-        second += share * lookupTransmittanceToSun(transmittance, air, h, sun) * kInv4Pi;
-        again += share;
-        through = through * exp(-extinction * (tNext - t));
-        t = tNext;
-      }
-      Real sunGround = sunCosineAlong(air, place.x, place.y, cosSun, end, 0.0f);
-      Vec3 direct = lookupTransmittanceToSun(transmittance, air, 0.0f, sunGround);
-      Vec3 bounce = through * groundRadiance(xyz(air.groundAlbedo), direct, sunGround, Vec3(0.0f));
-      second += select(hit, bounce, Vec3(0.0f));
+      float cosZenith = (2.0f * toReal(i) + 1.0f) / rings - 1.0f;
+      float azimuth = 3.14159265f * (toReal(j) + 0.5f) / rings;
+      addSecondOrder(transmittance, air, place.x, place.y, cosZenith, azimuth, second, again);
     }
   }
-  float directions = toReal(kMultiScatteringRings * kMultiScatteringRings);
-  Vec3 all = (second / directions) / (Vec3(1.0f) - again / directions);
+  float share = 1.0f / (rings * rings);
+  Vec3 all = (second * share) / (Vec3(1.0f) - again * share);
   return Vec4(all.x, all.y, all.z, 1.0f);
 }
 

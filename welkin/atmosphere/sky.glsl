@@ -19,7 +19,7 @@ FN Real headingFromDirection(IN(AtmosphereParams) air, IN(Vec3) direction) {
   Vec2 chord = Vec2(direction.x, direction.y) * (1.0f / r) - xy(air.sunHeading);
   return min(0.5f * length(chord), 1.0f);
 }
-FN Real elevationFromDirection(IN(Vec3) direction) { return kHalfPi - acos(clamp(direction.z, -1.0f, 1.0f)); }
+FN Real elevationFromDirection(IN(Vec3) direction) { return arcSine(direction.z); }
 
 // Cosine between the sun and a direction of this heading and elevation.
 FN Real cosSunFrom(IN(AtmosphereParams) air, IN(Real) heading, IN(Real) elevation) {
