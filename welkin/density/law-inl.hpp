@@ -10,7 +10,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/base/law_begin.inc"
-#include "welkin/density/remap.glsl"
 #include "welkin/density/space.glsl"
 #include "welkin/density/weather.glsl"
 #include "welkin/density/profile.glsl"

@@ -4,7 +4,6 @@
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
-#include "welkin/density/remap.glsl"
 #include "welkin/density/space.glsl"
 #include "welkin/density/weather.glsl"
 #include "welkin/density/profile.glsl"

@@ -12,6 +12,7 @@ namespace welkin::HWY_NAMESPACE::law {
 // clang-format off
 #include "welkin/base/law_begin.inc"
 #include "welkin/noise/hash.glsl"
+#include "welkin/noise/remap.glsl"
 #include "welkin/noise/lattice.glsl"
 #include "welkin/noise/perlin.glsl"
 #include "welkin/noise/simplex.glsl"

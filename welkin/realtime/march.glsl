@@ -1,24 +1,8 @@
 // The march: what one ray sees of clouds and ground. One density sample per turn of the loop; the ray's state says what
-// the sample is for. That form is the fastest on wide SIMD machines, Mesa's software driver among them (design notes in
-// docs/realtime.md). The reader supplies, before this file, `struct Sky` and
+// the sample is for. That form is the fastest on wide SIMD machines, Mesa's software driver among them. The reader
+// supplies, before this file, `struct Sky` and
 //   Vec3 skyExtinction(Vec3 q, Real footprint, Mask full, Sky sky)
 // which answers (extinction in 1/m, profile, extinction times precipitation) of all layers at a point of cloud space.
-
-struct MarchParams {
-  PlanetParams planet;
-  vec4 sun;             // xyz: direction toward the sun, w: powder
-  vec4 ambientSky;      // mean radiance of the sky in kcd/m^2, w: ambient gain
-  vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
-  vec4 groundAlbedo;    // w: 1 when the ground is drawn
-  vec4 skyIrradiance;   // on the ground, klx; w: albedo of the droplets
-  float bottom, top, stepScale, minStep;
-  float maxStep, maxDistance, earlyExit, footprintPerMetre;
-  float contribution, octaveExtinction, eccentricity, octaveGain;
-  float forwardG, backwardG, backwardWeight, rainAbsorption;
-  int octaves, lightSteps, ambientSteps, refine;
-  int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
-  int maxTurns, groundSteps, spare0, spare1;
-};
 
 struct MarchResult {
   Vec3 radiance;      // light that the clouds send, without the air in between

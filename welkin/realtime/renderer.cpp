@@ -1,1 +1,395 @@
+#include "welkin/realtime/renderer.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/error.hpp"
+#include "welkin/gl/state.hpp"
+#include "welkin/noise/textures.hpp"
+#include "welkin/realtime/frame_params.hpp"
+#include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/shader_sources.hpp"
+#include "welkin/realtime/sky_tables_tmp.hpp"
+#include "welkin/realtime/timers.hpp"
+#include "welkin/realtime/weather_levels.hpp"
+
+namespace welkin::realtime {
+
+namespace {
+
+constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2;
+
+// The uniform block "Layers" of the march.
+struct LayersBlock {
+  law::LayerParams layers[kMaxLayers];
+  law::ClipParams clips[kMaxLayers];
+  law::SheetParams sheets[kMaxSheets];
+  law::AtmosphereParams air;
+};
+
+std::string fileText(const char* path) { return std::string(shaderSource(path)); }
+
+WeatherExtent weatherExtent(QualityPreset preset) {
+  if (preset == QualityPreset::low || preset == QualityPreset::medium) return {256, 4, 14000.0, 2.6};
+  return {512, 4, 20000.0, 2.6};
+}
+
+glm::dvec3 eastNorthUp(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, -p.z, p.y); }
+
+}  // namespace
+
+struct View::State {
+  int width = 0, height = 0, interleave = 0;
+  gl::Texture marched, marchedDepth, samples;
+  std::array<gl::Texture, 2> history;
+  int current = 0;            // history that was written last
+  int frames = 0;             // since the last reset
+  int still = 0;              // frames since anything moved
+  std::optional<FrameParams> last;
+  glm::dvec3 lastPosition{0.0};
+  double lastTime = 0.0;
+};
+
+View::View() : state_(std::make_unique<State>()) {}
+View::~View() = default;
+View::View(View&&) noexcept = default;
+View& View::operator=(View&&) noexcept = default;
+void View::reset() {
+  state_->frames = 0;
+  state_->still = 0;
+}
+
+struct Renderer::State {
+  gl::Api gl;
+  gl::VertexArray triangle;
+  gl::Framebuffer framebuffer;
+  gl::UniformBuffer frameBuffer, layersBuffer, marchBuffer, weatherBuffer;
+  SkyTables sky;
+  Timers timers;
+  Scene scene;
+  bool hasScene = false;
+  glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};
+  gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
+  std::vector<gl::Texture> maps;
+  std::vector<std::unique_ptr<WeatherLevels>> weather;
+  gl::Program march, resolve, composite, weatherProgram;
+  std::string marchDefines;
+  float billowMix = 0.75f;
+  bool counting = false;
+  std::uint64_t revision = 0;
+  double samples = 0.0, rays = 0.0;
+
+  explicit State(const gl::Loader& loader)
+      : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
+        sky(gl), timers(gl) {
+    triangle = gl::VertexArray(gl);
+    const std::array<unsigned char, 4> texel{255, 255, 255, 255};
+    white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
+                        texel.data());
+    resolve = gl::Program(gl, "resolve", "", fileText("welkin/realtime/shaders/resolve.frag.glsl"), shaderSource);
+    composite = gl::Program(gl, "composite", "", fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
+    weatherProgram = gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
+  }
+
+  gl::Texture volume(const Volume& v, const gl::Format& format) {
+    return gl::Texture(gl, v.depth > 1 ? gl::Texture::Kind::volume : gl::Texture::Kind::plane, format, v.width, v.height,
+                       v.depth, gl::Filter::linear, gl::Addressing::repeat, v.texels.data());
+  }
+
+  bool uses(LayerShape shape) const {
+    for (const Layer& layer : scene.layers)
+      if (layer.cloud.shape == shape) return true;
+    return false;
+  }
+
+  void makeTextures(const CustomTextures& custom);
+  void makeMarch();
+  void makeTargets(View::State& view, const Frame& frame) const;
+  void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const {
+    gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl.BindTexture(texture.target(), texture.id());
+    gl.Uniform1i(program.uniform(name), unit);
+  }
+  void bindHostDepth(const gl::Program& program, const Frame& frame, int unit) const {
+    gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    gl.BindTexture(GL_TEXTURE_2D, frame.depthTexture ? frame.depthTexture : white.id());
+    gl.Uniform1i(program.uniform("uHostDepth"), unit);
+  }
+
+  // The passes, in order.
+  void skyPass(const glm::dvec3& position);
+  void weatherPass(const glm::dvec3& position, const Drift& drift);
+  void marchPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
+                 const FrameParams& params);
+  void resolvePass(View::State& view);
+  void compositePass(const View::State& view, const Frame& frame);
+};
+
+Renderer::Renderer(const gl::Loader& loader) : state_(std::make_unique<State>(loader)) {}
+Renderer::~Renderer() = default;
+
+void Renderer::State::makeTextures(const CustomTextures& custom) {
+  const auto orElse = [](const Volume& own, auto generate) { return own.texels.empty() ? generate() : own; };
+  const NoiseSettings& noise = scene.noise;
+  if (uses(LayerShape::profile)) {
+    profileBase = volume(orElse(custom.profileBase, [&] { return bakeProfileBasePacked(noise.profile, billowMix); }), gl::kR16F);
+    profileDetail = volume(orElse(custom.profileDetail, [&] { return bakeProfileDetail(noise.profile); }), gl::kRg16F);
+    profileWarp = volume(orElse(custom.profileWarp, [&] { return bakeProfileWarp(noise.profile); }), gl::kRg16F);
+  }
+  if (uses(LayerShape::nubis)) {
+    nubisBase = volume(orElse(custom.nubisBase, [&] { return bakeBaseShapePacked(noise.baseShape); }), gl::kRg16F);
+    nubisDetail = volume(orElse(custom.nubisDetail, [&] { return bakeDetailPacked(noise.detail); }), gl::kR16F);
+    curl = volume(orElse(custom.curl, [&] { return bakeCurl(noise.curl); }), gl::kRg16F);
+  }
+}
+
+// The march is compiled for the layers at hand: their number and shapes are part of its text.
+void Renderer::State::makeMarch() {
+  std::string layers;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    const bool nubis = scene.layers[i].cloud.shape == LayerShape::nubis;
+    layers += nubis ? fmt::format("found = nubisExtinction(q, full, sky.dither, uLayer[{0}], uClip[{0}], uWeather{0}, "
+                                  "uNubisBase, uNubisDetail, uCurl); ", i)
+                    : fmt::format("found = profileExtinction(q, footprint, sky.dither, uLayer[{0}], uClip[{0}], "
+                                  "uWeather{0}, uBaseNoise, uDetailNoise, uWarpNoise); ", i);
+    layers += "sum = vec3(sum.x + found.x, max(sum.y, found.y), sum.z + found.z); ";
+  }
+  const std::string defines = fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define SKY_LAYERS {}\n{}",
+                                          kMaxLayers, scene.sheets.size(), layers,
+                                          counting ? "#define COUNT_SAMPLES\n" : "");
+  if (defines == marchDefines) return;
+  march = gl::Program(gl, "march", defines, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
+  marchDefines = defines;
+}
+
+void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
+  State& s = *state_;
+  if (scene.layers.size() > kMaxLayers || scene.sheets.size() > kMaxSheets)
+    throw Error(ErrorKind::badInput, "", fmt::format("a sky has at most {} layers and {} sheets", kMaxLayers, kMaxSheets));
+  const gl::StateGuard guard(s.gl);
+  s.scene = scene;
+  s.sunDirection = sunDirection(scene.sun);
+  s.billowMix = scene.layers.empty() ? 0.75f : scene.layers[0].profile.billowMix;
+  s.makeTextures(textures);
+  s.makeMarch();
+  s.weather.clear();
+  s.maps.clear();
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    s.weather.push_back(std::make_unique<WeatherLevels>(s.gl, weatherExtent(scene.quality.preset)));
+    const Volume* map = i < textures.weatherMaps.size() ? &textures.weatherMaps[i] : nullptr;
+    if (!scene.layers[i].weather.map.empty() && (!map || map->texels.empty()))
+      throw Error(ErrorKind::badInput, "", "the weather map '" + scene.layers[i].weather.map + "' was not handed to the renderer");
+    s.maps.push_back(map && !map->texels.empty() ? s.volume(*map, gl::kRgba16F) : gl::Texture());
+  }
+  s.hasScene = true;
+  ++s.revision;
+}
+
+void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
+  const int scale = scene.quality.historyScale, interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
+  const int width = (frame.width + scale - 1) / scale, height = (frame.height + scale - 1) / scale;
+  if (view.history[0] && view.width == width && view.height == height && view.interleave == interleave &&
+      static_cast<bool>(view.samples) == counting)
+    return;
+  const auto target = [&](const gl::Format& format, int w, int h, gl::Filter filter) {
+    return gl::Texture(gl, gl::Texture::Kind::plane, format, w, h, 0, filter, gl::Addressing::clamp, nullptr);
+  };
+  const int w = (width + interleave - 1) / interleave, h = (height + interleave - 1) / interleave;
+  for (gl::Texture& t : view.history) t = target(gl::kRgba16F, width, height, gl::Filter::linear);
+  view.marched = target(gl::kRgba16F, w, h, gl::Filter::linear);
+  view.marchedDepth = target(gl::kR16F, w, h, gl::Filter::nearest);
+  view.samples = counting ? target(gl::kR32F, w, h, gl::Filter::nearest) : gl::Texture();
+  view.width = width;
+  view.height = height;
+  view.interleave = interleave;
+  view.frames = view.still = 0;
+}
+
+void Renderer::State::skyPass(const glm::dvec3& position) {
+  const double altitude = planetParams(position).altitude;
+  sky.update(scene.atmosphere, sunDirection, std::max(altitude, 0.0), scene.ground.albedo);
+}
+
+void Renderer::State::weatherPass(const glm::dvec3& position, const Drift& drift) {
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    weather[i]->update(scene.layers[i], glm::dvec2(position), drift, scene.seed, weatherProgram, framebuffer,
+                       weatherBuffer, maps[i] ? maps[i] : white);
+}
+
+void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
+                                const FrameParams& params) {
+  LayersBlock block{};
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    block.layers[i] = layerParams(scene.layers[i], position, drift);
+    block.clips[i] = weather[i]->params(glm::dvec2(position), drift);
+  }
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i)
+    block.sheets[i] = sheetParams(scene.sheets[i], glm::dvec2(position), drift.time, scene.seed);
+  block.air = sky.params().air;
+  layersBuffer.upload(&block, sizeof block);
+  const float pixelAngle = 2.0f * glm::length(glm::vec3(params.rayX)) / static_cast<float>(frame.width);
+  const law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), pixelAngle,
+                                         frame.background == Background::skyAndGround);
+  marchBuffer.upload(&m, sizeof m);
+
+  std::vector<const gl::Texture*> targets{&view.marched, &view.marchedDepth};
+  if (counting) targets.push_back(&view.samples);
+  framebuffer.target(targets);
+  gl.UseProgram(march.id());
+  march.bindBlock("Frame", kFrameBlock);
+  march.bindBlock("Layers", kLayersBlock);
+  march.bindBlock("March", kMarchBlock);
+  frameBuffer.bind(kFrameBlock);
+  layersBuffer.bind(kLayersBlock);
+  marchBuffer.bind(kMarchBlock);
+  int unit = 0;
+  bind(march, "uTransmittance", sky.transmittance(), unit++);
+  bind(march, "uAerialInscatter", sky.aerialInscatter(), unit++);
+  bind(march, "uAerialTransmittance", sky.aerialTransmittance(), unit++);
+  bindHostDepth(march, frame, unit++);
+  for (std::size_t i = 0; i < weather.size(); ++i)
+    bind(march, fmt::format("uWeather{}", i).c_str(), weather[i]->texture(), unit++);
+  if (uses(LayerShape::profile)) {
+    bind(march, "uBaseNoise", profileBase, unit++);
+    bind(march, "uDetailNoise", profileDetail, unit++);
+    bind(march, "uWarpNoise", profileWarp, unit++);
+  }
+  if (uses(LayerShape::nubis)) {
+    bind(march, "uNubisBase", nubisBase, unit++);
+    bind(march, "uNubisDetail", nubisDetail, unit++);
+    bind(march, "uCurl", curl, unit++);
+  }
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  if (!counting) return;
+  std::vector<float> counts(static_cast<std::size_t>(view.samples.width()) * view.samples.height());
+  gl.ReadBuffer(GL_COLOR_ATTACHMENT2);
+  gl.ReadPixels(0, 0, view.samples.width(), view.samples.height(), GL_RED, GL_FLOAT, counts.data());
+  samples = 0.0;
+  for (const float c : counts) samples += c;
+  rays = static_cast<double>(counts.size());
+}
+
+void Renderer::State::resolvePass(View::State& view) {
+  const gl::Texture* targets[] = {&view.history[static_cast<std::size_t>(1 - view.current)]};
+  framebuffer.target(targets);
+  gl.UseProgram(resolve.id());
+  resolve.bindBlock("Frame", kFrameBlock);
+  frameBuffer.bind(kFrameBlock);
+  bind(resolve, "uMarched", view.marched, 0);
+  bind(resolve, "uMarchedDepth", view.marchedDepth, 1);
+  bind(resolve, "uHistory", view.history[static_cast<std::size_t>(view.current)], 2);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  view.current = 1 - view.current;
+}
+
+void Renderer::State::compositePass(const View::State& view, const Frame& frame) {
+  gl.BindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
+  gl.Viewport(0, 0, frame.width, frame.height);
+  gl.Enable(GL_BLEND);
+  gl.BlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
+  gl.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
+  gl.UseProgram(composite.id());
+  composite.bindBlock("Frame", kFrameBlock);
+  composite.bindBlock("Air", kLayersBlock);
+  frameBuffer.bind(kFrameBlock);
+  weatherBuffer.upload(&sky.params().air, sizeof(law::AtmosphereParams));
+  weatherBuffer.bind(kLayersBlock);
+  bind(composite, "uHistory", view.history[static_cast<std::size_t>(view.current)], 0);
+  bind(composite, "uSkyView", sky.skyView(), 1);
+  bind(composite, "uTransmittance", sky.transmittance(), 2);
+  bindHostDepth(composite, frame, 3);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::render(View& view, const Frame& frame) {
+  State& s = *state_;
+  View::State& v = *view.state_;
+  if (!s.hasScene) throw Error(ErrorKind::failed, "", "render() was called before setScene()");
+  if (frame.width < 1 || frame.height < 1 || frame.width > 16384 || frame.height > 16384)
+    throw Error(ErrorKind::badInput, "", fmt::format("a picture of {}x{} pixels cannot be drawn; edges go from 1 to 16384",
+                                                     frame.width, frame.height));
+  const gl::StateGuard guard(s.gl);
+  s.gl.BindVertexArray(s.triangle.id());
+  s.makeTargets(v, frame);
+  const glm::dvec3 position = eastNorthUp(frame.position, frame.up);
+  const Drift drift{s.scene.wind.speed, s.scene.wind.from, frame.time};
+
+  FrameParams params = frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
+  const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != position || v.lastTime != frame.time;
+  v.still = moved ? 0 : v.still + 1;
+  const int round = v.still / (v.interleave * v.interleave);
+  const bool valid = v.frames > 0 && s.scene.quality.reprojection;
+  setHistory(params, v.last ? &*v.last : nullptr, position - v.lastPosition,
+             driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), valid,
+             1.0f / static_cast<float>(round + 1));
+  s.frameBuffer.upload(&params, sizeof params);
+
+  s.timers.begin();
+  s.skyPass(position);
+  s.timers.mark("sky tables");
+  s.weatherPass(position, drift);
+  s.timers.mark("weather");
+  s.marchPass(v, frame, position, drift, params);
+  s.timers.mark("march");
+  s.resolvePass(v);
+  s.timers.mark("resolve");
+  s.compositePass(v, frame);
+  s.timers.mark("composite");
+  s.gl.check("drawing a frame");
+
+  v.last = params;
+  v.lastPosition = position;
+  v.lastTime = frame.time;
+  ++v.frames;
+}
+
+void Renderer::countSamples(bool on) {
+  State& s = *state_;
+  s.counting = on;
+  if (!s.hasScene) return;
+  const gl::StateGuard guard(s.gl);
+  s.makeMarch();
+}
+
+FrameCost Renderer::lastCost() {
+  FrameCost cost;
+  for (const PassTime& pass : state_->timers.read()) cost.passes.push_back({pass.name, pass.milliseconds});
+  cost.densitySamples = state_->counting ? state_->samples : 0.0;
+  cost.rays = state_->counting ? state_->rays : 0.0;
+  return cost;
+}
+
+std::vector<MemoryRow> Renderer::memory(const View& view) const {
+  const State& s = *state_;
+  std::vector<MemoryRow> rows;
+  const auto add = [&](const std::string& name, const gl::Texture& t) {
+    if (t) rows.push_back({name, t.format().name, t.width(), t.height(), t.depth(), t.bytes()});
+  };
+  add("profile base noise", s.profileBase);
+  add("profile detail noise", s.profileDetail);
+  add("profile warp noise", s.profileWarp);
+  add("nubis base shape", s.nubisBase);
+  add("nubis detail", s.nubisDetail);
+  add("curl", s.curl);
+  for (std::size_t i = 0; i < s.weather.size(); ++i) add(fmt::format("weather {}", i), s.weather[i]->texture());
+  for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
+  add("no map", s.white);
+  add("sky transmittance", s.sky.transmittance());
+  add("sky multiple scattering", s.sky.multiScattering());
+  add("sky view", s.sky.skyView());
+  add("aerial in-scatter", s.sky.aerialInscatter());
+  add("aerial transmittance", s.sky.aerialTransmittance());
+  add("view: march colour", view.state_->marched);
+  add("view: march depth", view.state_->marchedDepth);
+  add("view: samples", view.state_->samples);
+  add("view: history a", view.state_->history[0]);
+  add("view: history b", view.state_->history[1]);
+  return rows;
+}
+
+}  // namespace welkin::realtime

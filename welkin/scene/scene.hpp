@@ -7,6 +7,7 @@
 #include "welkin/atmosphere/settings.hpp"
 #include "welkin/base/fields.hpp"
 #include "welkin/density/layer.hpp"
+#include "welkin/density/noise_settings.hpp"
 #include "welkin/light/settings.hpp"
 #include "welkin/scene/quality.hpp"
 
@@ -106,6 +107,7 @@ struct Scene {
   Camera camera;
   Film film;
   Quality quality;
+  NoiseSettings noise;
 };
 
 }  // namespace welkin

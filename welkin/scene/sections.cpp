@@ -33,6 +33,10 @@ std::vector<Section> sectionsOf(Scene& scene) {
   all.push_back(section("camera", "where the picture is taken from", scene.camera));
   all.push_back(section("film", "from light to a picture", scene.film));
   all.push_back(section("quality", "how much work the real-time renderer does", scene.quality));
+  all.push_back(section("noise.profile", "noise of shape \"profile\"", scene.noise.profile));
+  all.push_back(section("noise.base_shape", "base shape of \"nubis\"", scene.noise.baseShape));
+  all.push_back(section("noise.detail", "detail of \"nubis\"", scene.noise.detail));
+  all.push_back(section("noise.curl", "flow that bends the detail of \"nubis\"", scene.noise.curl));
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     Layer& layer = scene.layers[i];
     const std::string path = fmt::format("layer.{}", i);

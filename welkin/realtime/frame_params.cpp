@@ -1,0 +1,97 @@
+#include "welkin/realtime/frame_params.hpp"
+
+#include <cmath>
+
+namespace welkin::realtime {
+
+namespace {
+
+// The order in which the pixels of a 2x2 and of a 4x4 block are marched: Bayer's, so that neighbours come far apart.
+constexpr int kOrder2[4][2] = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+constexpr int kOrder4[16][2] = {{0, 0}, {2, 2}, {2, 0}, {0, 2}, {1, 1}, {3, 3}, {3, 1}, {1, 3},
+                                {1, 0}, {3, 2}, {3, 0}, {1, 2}, {0, 1}, {2, 3}, {2, 1}, {0, 3}};
+
+// Host axes to east, north, up.
+glm::mat3 worldAxes(UpAxis up) {
+  return up == UpAxis::z ? glm::mat3(1.0f) : glm::mat3(glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, -1, 0));
+}
+
+double fraction(double x) { return x - std::floor(x); }
+
+}  // namespace
+
+FrameParams frameParams(const Frame& frame, int width, int height, int interleave, const Quality& quality, int frames) {
+  FrameParams p{};
+  const glm::mat4& projection = frame.projection;
+  const glm::mat3 worldFromEye = worldAxes(frame.up) * glm::transpose(glm::mat3(frame.view));
+  // An eye ray is ((x + P20) / P00, (y + P21) / P11, -1), whatever the depth convention.
+  const float x = 1.0f / projection[0][0], y = 1.0f / projection[1][1];
+  p.ray = glm::vec4(worldFromEye * glm::vec3(projection[2][0] * x, projection[2][1] * y, -1.0f), 0.0f);
+  p.rayX = glm::vec4(worldFromEye * glm::vec3(x, 0.0f, 0.0f), 0.0f);
+  p.rayY = glm::vec4(worldFromEye * glm::vec3(0.0f, y, 0.0f), 0.0f);
+  const auto size = [](int w, int h) {
+    return glm::vec4(w, h, 1.0f / static_cast<float>(w), 1.0f / static_cast<float>(h));
+  };
+  p.size = size(width, height);
+  p.target = size(frame.width, frame.height);
+  p.marchSize = size((width + interleave - 1) / interleave, (height + interleave - 1) / interleave);
+  const int turn = frames % (interleave * interleave), round = frames / (interleave * interleave);
+  const int* at = interleave == 4 ? kOrder4[turn] : (interleave == 2 ? kOrder2[turn] : kOrder2[0]);
+  // The R2 sequence (Roberts 2018) moves the sample inside its pixel from round to round.
+  const double shiftX = quality.jitter ? fraction(0.5 + 0.7548776662 * round) - 0.5 : 0.0;
+  const double shiftY = quality.jitter ? fraction(0.5 + 0.5698402910 * round) - 0.5 : 0.0;
+  p.offset = glm::vec4(at[0], at[1], shiftX, shiftY);
+  p.timing = glm::vec4(static_cast<float>(frames % 4096), 1.0f, 0.0f, interleave);
+  p.depthInfo = glm::vec4(frame.depthTexture ? 1.0f : 0.0f, projection[2][2], projection[3][2],
+                          frame.depthRange == DepthRange::zeroToOne ? 1.0f : 0.0f);
+  p.wind.w = frame.preExposure;
+  p.options = glm::vec4(quality.averageHistory ? 1.0f : 0.0f, quality.jitter ? 1.0f : 0.0f,
+                        frame.background == Background::host ? 0.0f : 1.0f, 0.0f);
+  p.clipFromWorld = projection * glm::mat4(glm::transpose(worldFromEye));
+  return p;
+}
+
+void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& moved, const glm::dvec2& drifted,
+                bool valid, float share) {
+  params.timing.y = share;
+  params.timing.z = valid && last ? 1.0f : 0.0f;
+  params.wind = glm::vec4(glm::vec3(glm::dvec3(drifted, 0.0)), params.wind.w);
+  if (!last) return;
+  // A position relative to this eye, made relative to the last one, then projected as it was then.
+  glm::mat4 shift(1.0f);
+  shift[3] = glm::vec4(glm::vec3(moved), 1.0f);
+  const glm::mat4 rows = glm::transpose(last->clipFromWorld * shift);
+  params.previous0 = rows[0];
+  params.previous1 = rows[1];
+  params.previous3 = rows[3];
+}
+
+bool sameView(const FrameParams& a, const FrameParams& b) {
+  return a.clipFromWorld == b.clipFromWorld && a.size == b.size && a.wind.w == b.wind.w;
+}
+
+Frame frameOf(const Camera& camera, int width, int height) {
+  const double ch = std::cos(camera.heading), sh = std::sin(camera.heading);
+  const double cp = std::cos(camera.pitch), sp = std::sin(camera.pitch);
+  const double cr = std::cos(camera.roll), sr = std::sin(camera.roll);
+  const glm::dvec3 forward(sh * cp, ch * cp, sp);
+  const glm::dvec3 level(ch, -sh, 0.0);
+  const glm::dvec3 above(-sh * sp, -ch * sp, cp);
+  const glm::dvec3 right = level * cr - above * sr, top = above * cr + level * sr;
+  Frame frame;
+  frame.width = width;
+  frame.height = height;
+  frame.position = camera.position;
+  frame.view = glm::mat4(glm::transpose(glm::dmat3(right, top, -forward)));
+  const float f = 1.0f / std::tan(0.5f * camera.fov);
+  // Infinite far plane, depth reversed: the depth of a point is near / distance.
+  frame.projection = glm::mat4(0.0f);
+  frame.projection[0][0] = f;
+  frame.projection[1][1] = f * static_cast<float>(width) / static_cast<float>(height);
+  frame.projection[2][3] = -1.0f;
+  frame.projection[3][2] = 0.1f;
+  frame.depthRange = DepthRange::zeroToOne;
+  return frame;
+}
+
+}  // namespace welkin::realtime

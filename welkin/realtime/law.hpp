@@ -1,0 +1,9 @@
+#pragma once
+// The march's parameters in C++, laid out as the shaders' uniform block.
+#include "welkin/density/law.hpp"
+
+namespace welkin::law {
+#include "welkin/base/law_begin.inc"
+#include "welkin/realtime/march_params.glsl"
+#include "welkin/base/law_end.inc"
+}  // namespace welkin::law

@@ -1,0 +1,73 @@
+#include "welkin/realtime/march_params.hpp"
+
+#include <algorithm>
+
+namespace welkin::realtime {
+
+namespace {
+
+// A march of 64 steps at the zenith and 128 at the horizon (004 ch. 4.5.1), by fixed steps; physical skies step by
+// distance.
+constexpr int kZenithSteps = 64, kHorizonSteps = 128;
+constexpr float kStepPerMetre = 0.004f, kMinStep = 12.0f, kMaxStep = 250.0f;  // look: the coarsest without hatching
+constexpr float kFar = 150000.0f;                                             // m, where clouds have faded into the air
+constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets; a test counts
+
+}  // namespace
+
+law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
+                             const SkyLight& light, float pixelAngle, bool drawGround) {
+  const LightingSettings& l = scene.lighting;
+  const Quality& q = scene.quality;
+  law::MarchParams m{};
+  m.planet = planet;
+  m.sun = glm::vec4(sunDirection, l.powder);
+  m.ambientSky = glm::vec4(light.meanRadiance, l.ambient);
+  const float sunHeight = std::max(sunDirection.z, 0.0f);
+  const glm::vec3 ground = scene.ground.albedo * (0.7f * sunHeight * light.sunIrradiance + light.skyIrradiance) / 3.14159265f;
+  m.ambientGround = glm::vec4(ground, l.groundBounce);
+  m.groundAlbedo = glm::vec4(scene.ground.albedo, drawGround ? 1.0f : 0.0f);
+  m.bottom = 1e9f;
+  m.top = -1e9f;
+  m.earlyExit = q.earlyExit ? 0.004f : -1.0f;
+  float albedo = 1.0f;
+  for (const Layer& layer : scene.layers) {
+    const Shell shell = shellOf(layer);
+    m.bottom = std::min(m.bottom, shell.bottom);
+    m.top = std::max(m.top, shell.top);
+    albedo = std::min(albedo, layer.cloud.albedo);
+  }
+  if (scene.layers.empty()) m.bottom = 0.0f, m.top = 1.0f;
+  m.skyIrradiance = glm::vec4(light.skyIrradiance, albedo);
+  m.stepScale = kStepPerMetre * q.stepScale;
+  m.minStep = kMinStep * std::min(q.stepScale, 1.5f);
+  m.maxStep = kMaxStep;
+  m.maxDistance = scene.layers.empty() ? 1.0f : kFar;
+  m.footprintPerMetre = pixelAngle;
+  m.contribution = l.contribution;
+  m.octaveExtinction = l.octaveExtinction;
+  m.eccentricity = l.eccentricity;
+  m.octaveGain = l.octaveGain;
+  m.forwardG = l.forwardG;
+  m.backwardG = l.backwardG;
+  m.backwardWeight = l.backwardWeight;
+  m.rainAbsorption = l.rainAbsorption;
+  m.octaves = l.octaves;
+  m.lightSteps = q.lightSteps;
+  m.ambientSteps = q.ambientSteps;
+  m.refine = q.refine ? 1 : 0;
+  m.maxTurns = kMaxTurns;
+  m.groundSteps = 12;
+  if (l.model == LightingModel::nubis) {
+    m.nubis = 1;
+    m.lightSteps = 6;
+    m.ambientSteps = 0;
+    m.refine = 0;
+    m.fixedSteps = q.stepsByAngle ? kZenithSteps : kHorizonSteps;
+    m.fixedStepsHorizon = kHorizonSteps;
+    m.cheapSearch = q.cheapSearch ? 1 : 0;
+  }
+  return m;
+}
+
+}  // namespace welkin::realtime

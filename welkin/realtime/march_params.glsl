@@ -1,0 +1,17 @@
+// Parameters of the march (march.glsl), one block for a view.
+
+struct MarchParams {
+  PlanetParams planet;
+  vec4 sun;             // xyz: direction toward the sun, w: powder
+  vec4 ambientSky;      // mean radiance of the sky in kcd/m^2, w: ambient gain
+  vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
+  vec4 groundAlbedo;    // w: 1 when the ground is drawn
+  vec4 skyIrradiance;   // on the ground, klx; w: albedo of the droplets
+  float bottom, top, stepScale, minStep;
+  float maxStep, maxDistance, earlyExit, footprintPerMetre;
+  float contribution, octaveExtinction, eccentricity, octaveGain;
+  float forwardG, backwardG, backwardWeight, rainAbsorption;
+  int octaves, lightSteps, ambientSteps, refine;
+  int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
+  int maxTurns, groundSteps, spare0, spare1;
+};

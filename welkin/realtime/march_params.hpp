@@ -1,0 +1,14 @@
+#pragma once
+// From a Scene to the parameters of the march.
+#include "welkin/atmosphere/tables.hpp"
+#include "welkin/density/params.hpp"
+#include "welkin/realtime/law.hpp"
+#include "welkin/scene/scene.hpp"
+
+namespace welkin::realtime {
+
+// `pixelAngle`: rad of one pixel. `drawGround`: whether rays end on Welkin's own ground.
+law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
+                             const SkyLight& light, float pixelAngle, bool drawGround);
+
+}  // namespace welkin::realtime

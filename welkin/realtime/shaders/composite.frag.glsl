@@ -1,0 +1,30 @@
+// Composite pass: the history over the sky, or over the host's picture by blending (one, source alpha).
+#include "welkin/base/law.glsl"
+#include "welkin/light/phase.glsl"
+#include "welkin/atmosphere/atmosphere.glsl"
+#include "welkin/atmosphere/scattering.glsl"
+#include "welkin/atmosphere/models.glsl"
+#include "welkin/atmosphere/sky.glsl"
+#include "welkin/realtime/shaders/frame.glsl"
+
+layout(std140) uniform Air { AtmosphereParams uAir; };
+uniform sampler2D uHistory;
+uniform sampler2D uSkyView;
+uniform sampler2D uTransmittance;
+uniform sampler2D uHostDepth;
+
+in vec2 vUv;
+layout(location = 0) out vec4 oColour;
+
+void main() {
+  vec4 cloud = textureLod(uHistory, vUv, 0.0);
+  vec3 ray = rayAt(vUv * 2.0 - 1.0);
+  bool open = hostDistance(uHostDepth, vUv, ray) > 5e7;
+  if (uOptions.z > 0.5 && open) {
+    vec3 dir = normalize(ray);
+    vec3 behind = lookupSky(uSkyView, uAir, dir) + sunDisc(uAir, dir, length(uRayX.xyz) * 2.0 * uTarget.z);
+    oColour = vec4(cloud.rgb + cloud.a * min(behind * uWind.w, vec3(60000.0)), 0.0);
+  } else {
+    oColour = cloud;
+  }
+}

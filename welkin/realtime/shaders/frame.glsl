@@ -1,0 +1,30 @@
+// What all passes of a view know: rays, sizes, the host's depth.
+layout(std140) uniform Frame {
+  vec4 uRay;          // xyz: direction of the picture's centre (not normalised)
+  vec4 uRayX;         // per unit of x in [-1, 1]
+  vec4 uRayY;
+  vec4 uSize;         // history width, height, 1 / width, 1 / height
+  vec4 uMarchSize;    // march target width, height, 1 / width, 1 / height
+  vec4 uOffset;       // xy: pixel of the block that this frame marches, zw: shift inside the pixel
+  vec4 uTiming;       // x: frame number, y: share of the new sample, z: 1 when history is valid, w: interleave
+  vec4 uDepthInfo;    // x: 1 when the host gives depth, y: P22, z: P32, w: 1 when ndc z = depth
+  vec4 uPrevious0;    // rows of the last frame's clip transform of positions relative to this camera
+  vec4 uPrevious1;
+  vec4 uPrevious3;
+  vec4 uWind;         // xyz: way of the wind since the last frame, w: pre-exposure
+  vec4 uOptions;      // x: average history, y: jitter, z: draw the sky, w: cosine of the sun's radius
+  vec4 uTarget;       // target width, height, 1 / width, 1 / height
+};
+
+vec3 rayAt(vec2 ndc) { return uRay.xyz + uRayX.xyz * ndc.x + uRayY.xyz * ndc.y; }
+
+// Distance along the ray of the host's depth at uv, or far away.
+float hostDistance(sampler2D depth, vec2 uv, vec3 ray) {
+  if (uDepthInfo.x < 0.5) return 1e8;
+  float z = textureLod(depth, uv, 0.0).x;
+  float ndc = uDepthInfo.w > 0.5 ? z : z * 2.0 - 1.0;
+  float along = ndc + uDepthInfo.y;
+  if (abs(along) < 1e-9) return 1e8;
+  float view = uDepthInfo.z / along;
+  return view <= 0.0 || view > 1e7 ? 1e8 : view * length(ray);
+}

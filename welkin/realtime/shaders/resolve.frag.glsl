@@ -1,0 +1,36 @@
+// Resolve pass: the new pixels of this frame and the reprojected old ones become the cloud history.
+#include "welkin/realtime/shaders/frame.glsl"
+
+uniform sampler2D uMarched;
+uniform sampler2D uMarchedDepth;
+uniform sampler2D uHistory;
+
+layout(location = 0) out vec4 oColour;
+
+vec4 historyAt(vec2 uv) {
+  if (uOptions.x < 0.5) return textureLod(uHistory, uv, 0.0);
+  vec4 sum = vec4(0.0);
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x) sum += textureLod(uHistory, uv + vec2(x, y) * uSize.zw, 0.0);
+  return sum * (1.0 / 9.0);
+}
+
+void main() {
+  vec2 pixel = floor(gl_FragCoord.xy);
+  ivec2 block = ivec2(pixel / uTiming.w);
+  bool marched = all(lessThan(abs(pixel - vec2(block) * uTiming.w - uOffset.xy), vec2(0.5)));
+  vec2 uv = (pixel + 0.5) * uSize.zw;
+  // Where the march target stands for this pixel: its texel centres lie at the marched pixels.
+  vec2 marchUv = ((pixel - uOffset.xy) / uTiming.w + 0.5) * uMarchSize.zw;
+  vec4 fresh = marched ? texelFetch(uMarched, block, 0) : textureLod(uMarched, marchUv, 0.0);
+
+  float depth = texelFetch(uMarchedDepth, block, 0).x * 4.0;
+  vec3 position = normalize(rayAt(uv * 2.0 - 1.0)) * depth - uWind.xyz;
+  vec4 p = vec4(position, 1.0);
+  vec3 clip = vec3(dot(uPrevious0, p), dot(uPrevious1, p), dot(uPrevious3, p));
+  vec2 before = clip.xy / max(clip.z, 1e-6) * 0.5 + 0.5;
+  bool known = uTiming.z > 0.5 && clip.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
+  vec4 old = historyAt(before);
+  vec4 kept = known ? old : fresh;
+  oColour = marched ? mix(kept, fresh, known ? uTiming.y : 1.0) : kept;
+}
