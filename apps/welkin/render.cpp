@@ -1,5 +1,70 @@
+// welkin render: a picture of a sky.
+#include <fmt/format.h>
+
+#include <charconv>
+
 #include "apps/welkin/command.hpp"
+#include "apps/welkin/picture.hpp"
 
 namespace welkin::app {
-void addRender(CLI::App&) {}
+
+namespace {
+
+constexpr int kMaxSide = 16384;
+
+struct Size {
+  int width, height;
+};
+
+Size parseSize(const std::string& text) {
+  Size size{};
+  const char *end = text.data() + text.size(), *rest = text.data();
+  const auto readSide = [&](int& side) {
+    const auto [after, error] = std::from_chars(rest, end, side);
+    rest = after;
+    return error == std::errc() && side >= 1 && side <= kMaxSide;
+  };
+  const bool right = readSide(size.width) && rest != end && *rest++ == 'x' && readSide(size.height) && rest == end;
+  if (!right)
+    throw UsageError(
+        fmt::format("--size {}: write WIDTHxHEIGHT, for example 1280x720, at most {} a side", text, kMaxSide));
+  return size;
+}
+
+struct RenderArguments {
+  SkyArguments sky;
+  std::string output, size = "1280x720";
+  int frames = 0;
+  bool quiet = false;
+};
+
+void render(const RenderArguments& arguments) {
+  const Size size = parseSize(arguments.size);
+  const Scene scene = arguments.sky.scene();
+  requirePictureFile(arguments.output);
+  ProgressDisplay display("rendering", arguments.quiet ? ProgressStyle::quiet : ProgressStyle::automatic);
+  const Image light = renderSky(
+      scene, {.width = size.width, .height = size.height, .frames = arguments.frames, .progress = display.callback()});
+  savePicture(arguments.output, light, scene.film);
+}
+
+}  // namespace
+
+void addRender(CLI::App& app) {
+  auto* command = app.add_subcommand("render", "a picture of a sky by the real-time renderer");
+  auto arguments = std::make_shared<RenderArguments>();
+  arguments->sky.addTo(*command, SkyArguments::Need::optional);
+  command
+      ->add_option("-o,--output", arguments->output, "the picture: .png (8 bit, tone-mapped) or .exr (linear kcd/m^2)")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--size", arguments->size, "width and height in pixels")->type_name("WxH")->capture_default_str();
+  command->add_option("--frames", arguments->frames, "temporal frames that make the picture; 0 takes four marches a pixel")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100000));
+  arguments->sky.addPictureOptionsTo(*command);
+  command->add_flag("-q,--quiet", arguments->quiet, "no progress");
+  command->callback([arguments] { render(*arguments); });
+}
+
 }  // namespace welkin::app

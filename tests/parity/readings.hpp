@@ -1,11 +1,12 @@
 #pragma once
 // The scalar reading of every room, and the order in which GLSL reads the law files. One line per room.
 #include "welkin/atmosphere/law.hpp"
+#include "welkin/base/law_tone.hpp"
 #include "welkin/density/law.hpp"
 #include "welkin/light/law.hpp"
 #include "welkin/noise/law.hpp"
 
-#define WELKIN_BASE_LAW "welkin/base/law.glsl"
+#define WELKIN_BASE_LAW "welkin/base/law.glsl", "welkin/base/tone.glsl"
 #define WELKIN_LIGHT_LAW "welkin/light/phase.glsl", "welkin/light/transmittance.glsl"
 #define WELKIN_NOISE_LAW \
   "welkin/noise/hash.glsl", "welkin/noise/remap.glsl", "welkin/noise/lattice.glsl", "welkin/noise/perlin.glsl", \

@@ -7,6 +7,7 @@
 
 #include "tests/parity/parity.hpp"
 #include "welkin/atmosphere/law-inl.hpp"
+#include "welkin/base/law_tone-inl.hpp"
 #include "welkin/density/law-inl.hpp"
 #include "welkin/light/law-inl.hpp"
 #include "welkin/noise/law-inl.hpp"

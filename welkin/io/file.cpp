@@ -107,6 +107,15 @@ void writeFileAtomically(const std::string& path, const std::function<void(const
   }
 }
 
+void requireWritable(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) cannotWrite(path, EISDIR);
+  const std::filesystem::path parent = std::filesystem::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (!std::filesystem::is_directory(folder, ignored)) cannotWrite(path, ENOENT);
+  if (::access(folder.c_str(), W_OK) != 0) cannotWrite(path, errno);
+}
+
 void writeFileAtomically(const std::string& path, std::string_view bytes) {
   writeFileAtomically(path, [&](const std::string& temporary) { writeBytes(temporary, bytes); });
 }

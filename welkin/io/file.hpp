@@ -16,6 +16,10 @@ std::string readFile(const std::string& path, std::size_t most);
 void writeFileAtomically(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 void writeFileAtomically(const std::string& path, std::string_view bytes);
 
+// Throws the Error (failed) that writing the file would end in, when its folder is missing or may not be written to:
+// before hours of work, not after.
+void requireWritable(const std::string& path);
+
 // Writes bytes to a file and reports what the system reports late (a full disk). Throws Error (failed).
 void writeBytes(const std::string& path, std::string_view bytes);
 

@@ -228,6 +228,8 @@ Scene parseSky(std::string_view text, const std::string& name) {
 
 Scene loadSky(const std::string& path) { return parseSky(readFile(path, kMaxBytes + 1), path); }
 
+std::string tomlVersion() { return fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH); }
+
 std::string writeSky(const Scene& original) {
   if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets)
     throw Error(ErrorKind::badInput, "",

@@ -22,4 +22,7 @@ Scene parseSky(std::string_view text, const std::string& name);
 // Throws Error (badInput) for more layers or sheets than a sky may have.
 std::string writeSky(const Scene& scene);
 
+// The version of toml++ that Welkin was built with.
+std::string tomlVersion();
+
 }  // namespace welkin

@@ -6,6 +6,7 @@
 
 #include "welkin/atmosphere/settings.hpp"
 #include "welkin/base/fields.hpp"
+#include "welkin/base/tone.hpp"
 #include "welkin/density/layer.hpp"
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/light/settings.hpp"
@@ -57,11 +58,6 @@ struct FieldTable<Camera> {
   }
 };
 
-enum class ToneCurve { agx, aces, filmic, none };
-template <>
-struct ChoiceNames<ToneCurve> {
-  static constexpr std::array<std::string_view, 4> names{"agx", "aces", "filmic", "none"};
-};
 enum class ExposureMode { automatic, manual };
 template <>
 struct ChoiceNames<ExposureMode> {

@@ -1,0 +1,76 @@
+#include "apps/welkin/picture.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/welkin/command.hpp"
+#include "welkin/base/error.hpp"
+#include "welkin/base/tone.hpp"
+#include "welkin/io/exr.hpp"
+#include "welkin/io/file.hpp"
+#include "welkin/io/png.hpp"
+#include "welkin/realtime/offscreen.hpp"
+
+namespace welkin::app {
+
+namespace {
+
+constexpr int kSamplesPerPixel = 4;  // marches a pixel of a still picture, unless --frames says otherwise
+
+// A picture as an authoring map, south row first. What the picture has no channel for comes from the settings.
+Volume weatherMap(const WeatherSettings& weather) {
+  const Image picture = loadPng(weather.map);
+  Volume map(picture.width, picture.height, 1, 4);
+  const bool grey = picture.channels < 3, alpha = picture.channels == 2 || picture.channels == 4;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const float* from = picture.at(x, picture.height - 1 - y);
+      float* to = map.texels.data() + (static_cast<std::size_t>(y) * picture.width + x) * 4;
+      to[0] = from[0];
+      to[1] = grey ? weather.precipitation : from[1];
+      to[2] = grey ? weather.type : from[2];
+      to[3] = alpha ? from[picture.channels - 1] : 0.0f;
+    }
+  return map;
+}
+
+// The pictures that the sky names, as the renderer wants them.
+realtime::CustomTextures customTextures(const Scene& scene) {
+  realtime::CustomTextures textures;
+  textures.weatherMaps.resize(scene.layers.size());
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    if (!scene.layers[i].weather.map.empty()) textures.weatherMaps[i] = weatherMap(scene.layers[i].weather);
+  return textures;
+}
+
+}  // namespace
+
+Image renderSky(const Scene& scene, const RenderOptions& options) {
+  realtime::Offscreen screen(options.width, options.height);
+  screen.renderer().setScene(scene, customTextures(scene));
+  const int interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
+  const int frames = options.frames > 0 ? options.frames : kSamplesPerPixel * interleave * interleave;
+  for (int i = 0; i < frames; ++i) {
+    screen.draw(scene, scene.time);
+    screen.finish();
+    report(options.progress, static_cast<double>(i + 1) / frames);
+  }
+  return screen.read();
+}
+
+void requirePictureFile(const std::string& path) {
+  if (!path.ends_with(".png") && !path.ends_with(".exr"))
+    throw UsageError(fmt::format("'{}': a picture's name ends in .png or .exr", path));
+  requireWritable(path);
+}
+
+void savePicture(const std::string& path, const Image& light, const Film& film) {
+  if (path.ends_with(".exr")) return saveExr(path, light, ExrPrecision::full);
+  const double metered = film.exposure == ExposureMode::automatic ? automaticEv(light) : film.ev;
+  const ToneSettings tone{.ev = static_cast<float>(metered) - film.compensation,
+                          .whiteBalance = film.whiteBalance,
+                          .saturation = film.saturation,
+                          .curve = film.tone};
+  savePng(path, light.width, light.height, light.channels, displayBytes(light, tone));
+}
+
+}  // namespace welkin::app

@@ -1,0 +1,26 @@
+#pragma once
+// Pictures of a sky, and the files that they go to.
+#include <string>
+
+#include "welkin/base/image.hpp"
+#include "welkin/base/progress.hpp"
+#include "welkin/scene/scene.hpp"
+
+namespace welkin::app {
+
+struct RenderOptions {
+  int width = 1280, height = 720;
+  int frames = 0;  // temporal frames that make the picture; 0 lets the quality decide
+  Progress progress;
+};
+
+// The sky through its camera by the real-time renderer: linear RGB in kcd/m^2. Throws Error (noOpenGl).
+Image renderSky(const Scene& scene, const RenderOptions& options);
+
+// Throws UsageError unless the file ends in .png or .exr, and Error (failed) when it cannot be written.
+void requirePictureFile(const std::string& path);
+
+// Writes .png (tone-mapped, 8 bit) or .exr (linear floats).
+void savePicture(const std::string& path, const Image& light, const Film& film);
+
+}  // namespace welkin::app
