@@ -10,8 +10,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/base/law_begin.inc"
-#include "welkin/base/law_end.inc"
 #include "welkin/base/tone.glsl"
+#include "welkin/base/law_end.inc"
 }  // namespace welkin::HWY_NAMESPACE::law
 HWY_AFTER_NAMESPACE();
 #endif

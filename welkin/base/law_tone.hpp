@@ -4,6 +4,6 @@
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
-#include "welkin/base/law_end.inc"
 #include "welkin/base/tone.glsl"
+#include "welkin/base/law_end.inc"
 }  // namespace welkin::law

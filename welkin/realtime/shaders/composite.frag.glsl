@@ -1,6 +1,7 @@
 // Composite pass: the history over the sky, or over the host's picture by blending (one, source alpha).
 #include "welkin/base/law.glsl"
 #include "welkin/light/phase.glsl"
+#include "welkin/light/transmittance.glsl"
 #include "welkin/atmosphere/atmosphere.glsl"
 #include "welkin/atmosphere/scattering.glsl"
 #include "welkin/atmosphere/models.glsl"

@@ -1,6 +1,7 @@
 // March pass: one ray in every block of interleave^2 history pixels.
 #include "welkin/base/law.glsl"
 #include "welkin/light/phase.glsl"
+#include "welkin/light/transmittance.glsl"
 #include "welkin/noise/hash.glsl"
 #include "welkin/noise/lattice.glsl"
 #include "welkin/noise/remap.glsl"
