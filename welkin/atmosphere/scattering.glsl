@@ -2,6 +2,7 @@
 // Radiance here is per unit irradiance of the sun outside the atmosphere, in 1/sr, until a table is filled.
 
 const float kMultiScatteringSize = 32.0f;
+const float kMultiScatteringScale = 1024.0f;  // of the table's values: half floats then hold the twilight
 const int kMultiScatteringSteps = 24;
 const int kMultiScatteringRings = 8;
 
@@ -79,8 +80,14 @@ FN Vec4 multiScatteringTexel(IN(Sampler2) transmittance, IN(AtmosphereParams) ai
     }
   }
   float share = 1.0f / (rings * rings);
-  Vec3 all = (second * share) / (Vec3(1.0f) - again * share);
+  Vec3 all = (second * (share * kMultiScatteringScale)) / (Vec3(1.0f) - again * share);
   return Vec4(all.x, all.y, all.z, 1.0f);
+}
+
+// Radiance of all orders from the second on at a point.
+FN Vec3 lookupMultiScattering(IN(Sampler2) multiScattering, IN(AtmosphereParams) air, IN(Real) altitude,
+                              IN(Real) sunCosine) {
+  return xyz(sample2(multiScattering, multiScatteringUv(air, altitude, sunCosine))) * (1.0f / kMultiScatteringScale);
 }
 
 // Adds what the air scatters toward the start of a ray between distances `begin` and `end` to `radiance`, dimmed by
@@ -106,7 +113,7 @@ FN void addInscatter(IN(Sampler2) transmittance, IN(Sampler2) multiScattering, I
     Vec3 extinction = rayleigh + xyz(air.mieExtinction) * d.y + xyz(air.ozone) * d.z;
     Real sun = sunCosineAlong(air, altitude, sunCosine, cosSun, there, h);
     Vec3 source = lookupTransmittanceToSun(transmittance, air, h, sun) * (rayleigh * phaseR + mie * phaseM) +
-                  xyz(sample2(multiScattering, multiScatteringUv(air, h, sun))) * (rayleigh + mie);
+                  lookupMultiScattering(multiScattering, air, h, sun) * (rayleigh + mie);
     Real dt = max(tNext - t, 0.0f);
     radiance += through * source * stepIntegral(extinction, dt);
     through = through * exp(-extinction * dt);
