@@ -14,7 +14,7 @@
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/shader_sources.hpp"
-#include "welkin/realtime/sky_tables_tmp.hpp"
+#include "welkin/realtime/sky_tables.hpp"
 #include "welkin/realtime/timers.hpp"
 #include "welkin/realtime/weather_levels.hpp"
 
