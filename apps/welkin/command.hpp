@@ -40,8 +40,8 @@ struct Preset {
 // The presets that came with Welkin, sorted by name; empty when their folder is not found.
 std::vector<Preset> findPresets();
 
-// A folder next to the program, by its name in an installation and in the source tree; empty when neither is there.
-std::string dataFolder(const std::string& installed, const std::string& inSources);
+// $WELKIN_PRESETS, or the folder beside the program in an installation or in the source tree; empty when there is none.
+std::string presetFolder();
 
 // `--json`, for a subcommand that programs read.
 std::shared_ptr<bool> addJsonFlag(CLI::App& command);

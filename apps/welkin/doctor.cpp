@@ -1,6 +1,7 @@
 // welkin doctor: what this machine offers, and what is missing.
 #include <CLI/Version.hpp>
 #include <fmt/format.h>
+#include <hwy/detect_targets.h>
 #include <hwy/targets.h>
 
 #include <nlohmann/json.hpp>
@@ -48,7 +49,7 @@ Json describeOpenGl(gl::ContextKind kind) {
 
 Json describe() {
   Json simd = Json::array();
-  for (std::int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1)
+  for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
     simd.push_back(hwy::TargetName(rest & -rest));
   Json report{
       {"welkin", WELKIN_VERSION},
@@ -57,7 +58,7 @@ Json describe() {
       {"cpu", {{"threads", std::thread::hardware_concurrency()}, {"simd", simd}}},
       {"libraries",
        {{"OpenEXR", exrVersion()}, {"libpng", pngVersion()}, {"toml++", tomlVersion()}, {"CLI11", CLI11_VERSION}}}};
-  const std::string presets = dataFolder("presets", "presets");
+  const std::string presets = presetFolder();
   report["presets"] = presets;
   Json missing = Json::array();
   if (!report["opengl"]["available"] && !report["opengl_es"]["available"])

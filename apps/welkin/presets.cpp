@@ -41,18 +41,17 @@ std::string genusOf(const Scene& scene) {
 
 }  // namespace
 
-std::string dataFolder(const std::string& installed, const std::string& inSources) {
+std::string presetFolder() {
+  if (const char* chosen = std::getenv("WELKIN_PRESETS"); chosen && *chosen) return chosen;
   std::error_code none;
   const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const fs::path& folder :
-       {program / ".." / "share" / "welkin" / installed, program / ".." / ".." / ".." / inSources})
+  for (const fs::path& folder : {program / "../share/welkin/presets", program / "../../../presets"})
     if (!program.empty() && fs::is_directory(folder, none)) return folder.lexically_normal().string();
   return "";
 }
 
 std::vector<Preset> findPresets() {
-  const char* chosen = std::getenv("WELKIN_PRESETS");
-  const std::string folder = chosen && *chosen ? chosen : dataFolder("presets", "presets");
+  const std::string folder = presetFolder();
   std::vector<Preset> presets;
   std::error_code none;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {

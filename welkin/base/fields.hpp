@@ -155,13 +155,13 @@ constexpr FieldKind kindOf() {
 
 }  // namespace detail
 
-// One row of a table. `hard` is what is accepted, `soft` what a slider spans (0, 0 means: as hard). The default is the
+// One row of a table. `hard` is what is accepted, `soft` what a slider spans ({} means: as hard). The default is the
 // member's own.
 template <auto Member, Unit const& U = kNoUnit>
 Field field(const char* name, Range hard, Range soft, const char* help) {
   using Info = detail::MemberOf<decltype(Member)>;
   using V = typename Info::Value;
-  Field f{name, detail::kindOf<V>(), U, hard, soft.low == 0 && soft.high == 0 ? hard : soft, help, {}, {}, {}, {}, {}};
+  Field f{name, detail::kindOf<V>(), U, hard, soft.low == Range{}.low ? hard : soft, help, {}, {}, {}, {}, {}};
   if constexpr (detail::kindOf<V>() == FieldKind::vector)
     f.singlePrecision = std::is_same_v<std::remove_cvref_t<decltype(V{}.x)>, float>;
   else

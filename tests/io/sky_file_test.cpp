@@ -1,0 +1,175 @@
+#include "welkin/io/sky_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/scene/random_scene.hpp"
+#include "welkin/base/error.hpp"
+#include "welkin/io/file.hpp"
+#include "welkin/io/png.hpp"
+
+namespace welkin {
+namespace {
+
+std::string refusal(const std::string& text) {
+  try {
+    parseSky(text, "a.sky.toml");
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::badInput);
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(SkyFile, AnEmptySkyIsTheDefaultOne) {
+  EXPECT_TRUE(sameScene(parseSky("format = 1\n", "a"), Scene{}));
+  EXPECT_EQ(writeSky(Scene{}), "format = 1\n");
+}
+
+TEST(SkyFile, AListReplacesTheDefaultList) {
+  EXPECT_EQ(parseSky("format = 1\n[[sheet]]\n", "a").layers.size(), 0u);
+  EXPECT_EQ(parseSky("format = 1\n[[sheet]]\n", "a").sheets.size(), 1u);
+  EXPECT_EQ(parseSky("format = 1\nlayer = []\n", "a").layers.size(), 0u);
+  EXPECT_EQ(parseSky("format = 1\nsheet = []\nlayer = [{}, {base = 3000}]\n", "a").layers.size(), 2u);
+  EXPECT_EQ(
+      parseSky("format = 1\n[[layer]]\n[layer.weather]\ncoverage = 0.1\n[[layer]]\n", "a").layers[0].weather.coverage,
+      0.1f);
+}
+
+TEST(SkyFile, ReadsUnits) {
+  const Scene s = parseSky("format = 1\n[sun]\nelevation = 90\n[camera]\nposition = [1, 2.5, 3]\n", "a");
+  EXPECT_NEAR(s.sun.elevation, 1.5707963f, 1e-6f);
+  EXPECT_EQ(s.camera.position, glm::dvec3(1, 2.5, 3));
+}
+
+TEST(SkyFile, OtherQualityKeysWinOverThePreset) {
+  const Scene s = parseSky("format = 1\n[quality]\nlight_steps = 16\npreset = \"low\"\n", "a");
+  Quality expected = qualityPreset(QualityPreset::low);
+  expected.lightSteps = 16;
+  EXPECT_EQ(s.quality, expected);
+}
+
+TEST(SkyFile, WritesOnlyWhatDiffers) {
+  Scene s;
+  s.title = "Evening";
+  s.sun.elevation = 0.1f;
+  s.layers[0].weather.coverage = 0.7f;
+  s.quality = qualityPreset(QualityPreset::medium);
+  s.quality.jitter = false;
+  EXPECT_EQ(writeSky(s),
+            "format = 1\ntitle = \"Evening\"\n\n[sun]\nelevation = 5.729578\n\n[quality]\npreset = \"medium\"\n"
+            "jitter = false\n\n[[layer]]\n\n[layer.weather]\ncoverage = 0.7\n");
+}
+
+TEST(SkyFile, RandomScenesComeBackBitForBit) {
+  for (unsigned seed = 0; seed < 500; ++seed) {
+    const Scene scene = test::randomScene(seed, seed % 2 ? 0.2 : 1.0);
+    const std::string text = writeSky(scene);
+    const Scene back = parseSky(text, "random");
+    ASSERT_TRUE(sameScene(scene, back)) << "seed " << seed << "\n" << text;
+    ASSERT_EQ(writeSky(back), text) << seed;
+  }
+}
+
+TEST(SkyFile, RefusesToWriteMoreThanItReads) {
+  Scene scene;
+  scene.layers.resize(5);
+  EXPECT_THROW(writeSky(scene), Error);
+}
+
+struct Refused {
+  const char *text, *message;
+};
+class SkyFileErrors : public testing::TestWithParam<Refused> {};
+TEST_P(SkyFileErrors, NameFileLineAndColumn) { EXPECT_EQ(refusal(GetParam().text), GetParam().message); }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SkyFileErrors,
+    testing::Values(
+        Refused{"", "a.sky.toml:1:1: a sky file says 'format = 1' in its first lines"},
+        Refused{"format = 2\n", "a.sky.toml:1:10: format must be 1, the only one that this version reads"},
+        Refused{"format = \"1\"\n", "a.sky.toml:1:10: format must be 1, the only one that this version reads"},
+        Refused{"format = 1\n[[layer]]\n  [layer.weather]\n    coverge = 0.5\n",
+                "a.sky.toml:4:5: 'coverge' is not a parameter of layer.weather; did you mean 'coverage'?"},
+        Refused{"format = 1\ntitel = \"x\"\n",
+                "a.sky.toml:2:1: 'titel' is not a parameter of a sky; did you mean 'title'?"},
+        Refused{"format = 1\n[layr]\n", "a.sky.toml:2:2: 'layr' is not a parameter of a sky; did you mean 'layer'?"},
+        Refused{"format = 1\n[[layer]]\n[layer.wether]\n",
+                "a.sky.toml:3:8: 'wether' is not a parameter of layer; did you mean 'weather'?"},
+        Refused{"format = 1\nzzzzzzzzzzz = 1\n",
+                "a.sky.toml:2:1: 'zzzzzzzzzzz' is not a parameter of a sky; `welkin fields` lists them"},
+        Refused{"format = 1\n[sun]\nelevation = \"high\"\n", "a.sky.toml:3:13: sun.elevation must be a number"},
+        Refused{"format = 1\n[sun]\nelevation = 2020-01-01\n", "a.sky.toml:3:13: sun.elevation must be a number"},
+        Refused{"format = 1\nseed = 1.5\n", "a.sky.toml:2:8: seed must be a whole number"},
+        Refused{"format = 1\ntitle = 3\n", "a.sky.toml:2:9: title must be a text in quotes"},
+        Refused{"format = 1\n[quality]\njitter = 1\n", "a.sky.toml:3:10: quality.jitter must be true or false"},
+        Refused{"format = 1\n[camera]\nposition = [1, 2]\n",
+                "a.sky.toml:3:12: camera.position must be three numbers, [x, y, z]"},
+        Refused{"format = 1\n[camera]\nposition = [1, 2, \"3\"]\n",
+                "a.sky.toml:3:12: camera.position must be three numbers, [x, y, z]"},
+        Refused{"format = 1\n[film]\ntone = \"agg\"\n",
+                "a.sky.toml:3:8: film.tone is \"agg\", but must be one of \"agx\", \"aces\", \"filmic\", \"none\""},
+        Refused{"format = 1\n[quality]\ninterleave = 3\n",
+                "a.sky.toml:3:14: quality.interleave is 3, but must be one of 1, 2, 4"},
+        Refused{"format = 1\n[[layer]]\n[layer.weather]\ncoverage = 1.5\n",
+                "a.sky.toml:4:12: layer.weather.coverage is 1.5, outside 0 to 1"},
+        Refused{"format = 1\ntime = nan\n", "a.sky.toml:2:8: time is not a finite number"},
+        Refused{"format = 1\ntime = inf\n", "a.sky.toml:2:8: time is not a finite number"},
+        Refused{"format = 1\nseed = 9223372036854775807\n",
+                "a.sky.toml:2:8: seed is 9.22337e+18, outside 0 to 2.14748e+09"},
+        Refused{"format = 1\n[[layer]]\n[layer.weather]\nmap = \"no.png\"\n",
+                "a.sky.toml:4:7: layer.weather.map names the picture 'no.png', which does not exist"},
+        Refused{"format = 1\n[layer]\nbase = 1\n", "a.sky.toml:2:1: 'layer' is a list of tables; write [[layer]]"},
+        Refused{"format = 1\nlayer = [1]\n", "a.sky.toml:2:9: 'layer' is a list of tables; write [[layer]]"},
+        Refused{"format = 1\nsun = 3\n", "a.sky.toml:2:7: 'sun' is a table; write [sun]"},
+        Refused{"format = 1\n[[sun]]\n", "a.sky.toml:2:1: 'sun' is a table; write [sun]"},
+        Refused{"format = 1\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n",
+                "a.sky.toml:6:1: a sky has at most 4 [[sheet]]"},
+        // Of two mistakes, the one that comes first in the file.
+        Refused{"format = 1\n[sun]\nelevation = 200\n[camera]\nfov = 0\n",
+                "a.sky.toml:3:13: sun.elevation is 200, outside -90 to 90 deg"}));
+
+// The parser's own words may change; the position may not.
+TEST(SkyFile, SyntaxErrorsHaveAPosition) {
+  EXPECT_EQ(refusal("format = 1\nseed = 3\nseed = 4\n").rfind("a.sky.toml:3:", 0), 0u);
+  EXPECT_EQ(refusal("format = 1\n[sun\n").rfind("a.sky.toml:2:", 0), 0u);
+  EXPECT_EQ(refusal("format = 1\nseed = 99999999999999999999\n").rfind("a.sky.toml:2:", 0), 0u);
+  EXPECT_EQ(refusal("format = 1\ntitle = \"\xff\"\n").rfind("a.sky.toml:2:", 0), 0u);
+}
+
+TEST(SkyFile, RefusesHugeAndDeepFiles) {
+  EXPECT_EQ(refusal("format = 1\n#" + std::string(1 << 20, 'x')), "a.sky.toml:1:1: a sky file is at most 1 MiB long");
+  std::string key = "a";
+  for (int i = 0; i < 100000; ++i) key += ".a";
+  EXPECT_EQ(refusal("format = 1\n" + key + " = 1\n"), "a.sky.toml:2:66: this key has too many parts");
+  EXPECT_EQ(refusal("format = 1\n[" + key + "]\n"), "a.sky.toml:2:67: this key has too many parts");
+  std::string quoted = "\"=\"";
+  for (int i = 0; i < 100000; ++i) quoted += ".\"=\"";
+  EXPECT_NE(refusal("format = 1\n" + quoted + " = 1\n").find("too many parts"), std::string::npos);
+  EXPECT_EQ(refusal("format = 1\nx = " + std::string(100000, '[')).rfind("a.sky.toml:2:", 0), 0u);
+  EXPECT_EQ(refusal("format = 1\ntitle = \"" + std::string(100, '.') + "\"\n"), "accepted");
+}
+
+TEST(SkyFile, FindsPicturesBesideTheFile) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "welkin_sky_file";
+  std::filesystem::create_directories(folder);
+  const std::uint8_t grey[] = {128};
+  savePng((folder / "map.png").string(), 1, 1, 1, grey);
+  writeFileAtomically((folder / "b.sky.toml").string(), "format = 1\n[[layer]]\n[layer.weather]\nmap = \"map.png\"\n");
+  EXPECT_EQ(loadSky((folder / "b.sky.toml").string()).layers[0].weather.map, (folder / "map.png").string());
+  std::filesystem::remove_all(folder);
+}
+
+TEST(SkyFile, AMissingFileIsBadInput) {
+  try {
+    loadSky("no/such.sky.toml");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::badInput);
+    EXPECT_STREQ(e.what(), "no/such.sky.toml: cannot be read: No such file or directory");
+  }
+}
+
+}  // namespace
+}  // namespace welkin
