@@ -120,6 +120,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "a.sky.toml:2:8: seed is 9.22337e+18, outside 0 to 2.14748e+09"},
         Refused{"format = 1\n[[layer]]\n[layer.weather]\nmap = \"no.png\"\n",
                 "a.sky.toml:4:7: layer.weather.map names the picture 'no.png', which does not exist"},
+        Refused{"format = 1\n[sun]\ndate = \"2026-02-30\"\n",
+                "a.sky.toml:3:8: sun.date is \"2026-02-30\", but that month has days 1 to 28"},
         Refused{"format = 1\n[layer]\nbase = 1\n", "a.sky.toml:2:1: 'layer' is a list of tables; write [[layer]]"},
         Refused{"format = 1\nlayer = [1]\n", "a.sky.toml:2:9: 'layer' is a list of tables; write [[layer]]"},
         Refused{"format = 1\nsun = 3\n", "a.sky.toml:2:7: 'sun' is a table; write [sun]"},

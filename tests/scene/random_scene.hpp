@@ -26,6 +26,8 @@ inline FieldValue randomValue(const Field& f, std::mt19937& random) {
     case FieldKind::picture:
       return std::string();
     case FieldKind::text: {
+      if (f.name == std::string_view("date")) return "19" + std::to_string(10 + random() % 90) + "-02-28";
+      if (f.name == std::string_view("time")) return std::to_string(10 + random() % 14) + ":30";
       static constexpr const char* kPieces[] = {"cloud", " \"x\"", "\\", "\n", "\t", "#", "ü", "☁", "'", "]"};
       std::string text;
       for (std::size_t i = random() % 6; i > 0; --i) text += kPieces[random() % std::size(kPieces)];

@@ -4,6 +4,9 @@
 
 #include <filesystem>
 
+#include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/error.hpp"
+
 namespace welkin {
 
 namespace {
@@ -70,6 +73,25 @@ const Field* findField(const Section& section, std::string_view name) {
   return nullptr;
 }
 
+namespace {
+
+// What is wrong with a date or time of the sun, each judged beside a right one.
+std::string checkSunText(std::string_view name, const std::string& text) {
+  try {
+    if (name == "date") daysFromDateTime(text, "12:00");
+    if (name == "time") daysFromDateTime("2000-01-01", text);
+  } catch (const Error& e) {
+    // "sun: date is ..." without the names, which the caller knows.
+    std::string what = e.what();
+    for (const std::string& lead : {e.where() + ": ", std::string(name) + " "})
+      if (what.starts_with(lead)) what.erase(0, lead.size());
+    return what;
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string assign(Scene& scene, const Section& section, const Field& field, FieldValue value) {
   if (std::string wrong = checkField(field, value); !wrong.empty()) return wrong;
   if (field.kind == FieldKind::picture) {
@@ -78,6 +100,8 @@ std::string assign(Scene& scene, const Section& section, const Field& field, Fie
     if (!path.empty() && !std::filesystem::is_regular_file(path, ignored))
       return fmt::format("names the picture '{}', which does not exist", path);
   }
+  if (section.object == &scene.sun && field.kind == FieldKind::text)
+    if (std::string wrong = checkSunText(field.name, std::get<std::string>(value)); !wrong.empty()) return wrong;
   field.set(section.object, value);
   if (section.object == &scene.quality && field.name == std::string_view("preset"))
     scene.quality = qualityPreset(scene.quality.preset);
