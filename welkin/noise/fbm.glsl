@@ -1,5 +1,6 @@
-// Sums of octaves (000 eq. 2.21): octave i has lacunarity^i times the cells of the first and gain^i times its weight; the
-// weights sum to 1. p counts the first octave's cells; whole lacunarities keep it seamless. Octave i has the seed + i.
+// Sums of octaves (000 eq. 2.21): octave i has lacunarity^i times the cells of the first and gain^i times its weight;
+// the weights sum to 1. p counts the first octave's cells; whole lacunarities keep it seamless. Octave i has the seed
+// plus i.
 
 FN Real perlinFbm2At(IN(IVec2) cell, IN(Vec2) f, IN(int) period, IN(int) octaves, IN(int) lacunarity, IN(float) gain,
                      IN(uint) seed) {
@@ -42,8 +43,8 @@ FN Real perlinFbm3At(IN(IVec3) cell, IN(Vec3) f, IN(int) period, IN(int) octaves
 }
 FN Real perlinFbm3(IN(Vec3) p, IN(int) period, IN(int) octaves, IN(int) lacunarity, IN(float) gain, IN(uint) seed) {
   Vec3 whole = floor(p);
-  return perlinFbm3At(IVec3(toInt(whole.x), toInt(whole.y), toInt(whole.z)), p - whole, period, octaves, lacunarity, gain,
-                      seed);
+  return perlinFbm3At(IVec3(toInt(whole.x), toInt(whole.y), toInt(whole.z)), p - whole, period, octaves, lacunarity,
+                      gain, seed);
 }
 
 // Ridges max(0, 1 - slope |Perlin|): thin bright sheets where the noise changes its sign.

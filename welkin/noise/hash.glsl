@@ -8,8 +8,8 @@ FN Uint hashUint(IN(Uint) x) {
   return (word >> 22u) ^ word;
 }
 
-// A lattice point is hashed coordinate by coordinate, x last: hashChain(x, hashChain(y, hashChain(z, hashSeed(seed)))) is
-// hashCell3(x, y, z, seed), so that a row of points shares the work for y and z.
+// A lattice point is hashed coordinate by coordinate, x last: hashChain(x, hashChain(y, hashChain(z, hashSeed(seed))))
+// is hashCell3(x, y, z, seed), so that a row of points shares the work for y and z.
 FN uint hashSeed(IN(uint) seed) { return seed * 0x9E3779B9u; }
 FN Uint hashChain(IN(Int) coordinate, IN(Uint) h) { return hashUint(toUint(coordinate) + h); }
 

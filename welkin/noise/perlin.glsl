@@ -5,8 +5,8 @@
 FN Real fadeQuintic(IN(Real) t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
 FN Real fadeQuinticSlope(IN(Real) t) { return 30.0f * t * t * (t * (t - 2.0f) + 1.0f); }
 
-// The lattice points with one x, blended over the other axes: the noise near them as (slope, value) of a line in x. rowYZ
-// are the hash chains of their other coordinates, w the faded fraction.
+// The lattice points with one x, blended over the other axes: the noise near them as (slope, value) of a line in x.
+// The rows are the hash chains of their other coordinates, w the faded fraction.
 FN Vec2 perlin2Side(IN(Int) x, IN(Uint) row0, IN(Uint) row1, IN(Real) fy, IN(Real) wy) {
   Vec2 g0 = gradient2(hashChain(x, row0));
   Vec2 g1 = gradient2(hashChain(x, row1));

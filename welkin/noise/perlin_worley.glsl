@@ -1,4 +1,4 @@
-// Perlin-Worley noise: Perlin fBm P in [0, 1] and inverted Worley fBm W in [0, 1] as one value in [0, 1] (000 fig. 4.8).
+// Perlin-Worley noise: Perlin fBm P and inverted Worley fBm W, both in [0, 1], as one value in [0, 1] (000 fig. 4.8).
 
 const int kPerlinWorleySquare = 0;
 const int kPerlinWorleyLift = 1;

@@ -1,7 +1,7 @@
 // Simplex noise (K. Perlin 2001; S. Gustavson, "Simplex noise demystified", 2005) of 3 and 4 variables, within -1 to 1.
-// Seamless where asked: it repeats after `period` units on every axis if that is a multiple of 3, 0 never. The lattice is
-// skewed by 1/3 in both; in 4D, where regular simplices would need the irrational .309 and could not repeat, they are
-// stretched by 4 %. A lattice point is hashed by its place on the axes in units of 1/6 and 1/7, which wraps.
+// Seamless where asked: it repeats after `period` units on every axis if that is a multiple of 3, 0 never. The lattice
+// is skewed by 1/3 in both; in 4D, where regular simplices would need the irrational .309 and could not repeat, they
+// are squeezed by 4 %. A lattice point is hashed by its place on the axes in units of 1/6 and 1/7, which wraps.
 // The kernels end at the faces of the simplices, so that the noise has no steps.
 
 FN Real simplexKernel3(IN(Vec3) d, IN(Int) x, IN(Int) y, IN(Int) z, IN(int) period, IN(uint) seed) {
@@ -64,5 +64,5 @@ FN Real simplex4(IN(Vec4) p, IN(int) period, IN(uint) seed) {
     n += simplexKernel4(d - o + Vec4(toReal(corner) * 0.142857143f), x + toInt(o.x), y + toInt(o.y), z + toInt(o.z),
                         w + toInt(o.w), period, seed);
   }
-  return n * 88.0f;
+  return n * 80.0f;
 }

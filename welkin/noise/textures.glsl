@@ -95,7 +95,9 @@ FN Vec2 profileBaseRaw(IN(Vec3) uvw, IN(ProfileBaseParams) p) {
 FN Vec2 profileBaseStretched(IN(Vec2) raw, IN(ProfileBaseParams) p) {
   return Vec2(saturate((raw.x - p.lowR) * p.scaleR), saturate((raw.y - p.lowG) * p.scaleG));
 }
-FN Vec2 profileBaseTexel(IN(Vec3) uvw, IN(ProfileBaseParams) p) { return profileBaseStretched(profileBaseRaw(uvw, p), p); }
+FN Vec2 profileBaseTexel(IN(Vec3) uvw, IN(ProfileBaseParams) p) {
+  return profileBaseStretched(profileBaseRaw(uvw, p), p);
+}
 FN Real profileBasePacked(IN(Vec2) base, IN(ProfileBaseParams) p) {
   return base.x * (1.0f - p.billowMix) + base.y * p.billowMix;
 }

@@ -1,8 +1,8 @@
-// Cellular noise (S. Worley, "A cellular texture basis function", 1996; 000 ch. 2.3.2): distances to one feature point in
-// every cell. One cell is one unit of p; it repeats after `period` cells, 0 never.
-// Results are (F1, F2), the nearest and the second nearest distance. Neighbour cells are searched as far as the limit to
-// which both are cut holds for certain: 1 cell for Euclidean distances, which 3^n cells answer exactly and few places
-// exceed, 2 for Manhattan ones.
+// Cellular noise (S. Worley, "A cellular texture basis function", 1996; 000 ch. 2.3.2): distances to one feature point
+// in every cell. One cell is one unit of p; it repeats after `period` cells, 0 never.
+// Results are (F1, F2), the nearest and the second nearest distance, exact up to a limit to which both are cut, because
+// no further neighbours are searched: 1 for Euclidean distances (3^n cells), which few places exceed, 2 for Manhattan
+// ones (5^n cells).
 
 const int kWorleyEuclidean = 0;
 const int kWorleyManhattan = 1;
