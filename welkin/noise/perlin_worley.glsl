@@ -7,16 +7,12 @@ const int kPerlinWorleyDilate = 3;
 const int kPerlinWorleyErode = 4;
 const int kPerlinWorleyProduct = 5;
 
-// Each is remap (000 eq. 2.27) of P or W with one bound given by the other.
 FN Real perlinWorley(IN(Real) perlin, IN(Real) worley, IN(int) combination) {
-  Real lifted = worley + perlin * (1.0f - worley);                                              // remap(P, 0, 1, W, 1)
+  Real lifted = remap(perlin, 0.0f, 1.0f, worley, 1.0f);
   if (combination == kPerlinWorleySquare) return saturate(lifted * lifted);
   if (combination == kPerlinWorleyLift) return saturate(lifted);
-  if (combination == kPerlinWorleyCarve)                                                        // remap(P, W, 1, 0, 1)
-    return saturate((perlin - worley) / max(1.0f - worley, 0.001f));
-  if (combination == kPerlinWorleyDilate)                                                   // remap(P, W - 1, 1, 0, 1)
-    return saturate((perlin + 1.0f - worley) / (2.0f - worley));
-  if (combination == kPerlinWorleyErode)                                                    // remap(P, 1 - W, 1, 0, 1)
-    return saturate((perlin - 1.0f + worley) / max(worley, 0.001f));
-  return saturate(perlin * worley);                                                             // remap(W, 0, 1, 0, P)
+  if (combination == kPerlinWorleyCarve) return saturate(remap(perlin, min(worley, 0.999f), 1.0f, 0.0f, 1.0f));
+  if (combination == kPerlinWorleyDilate) return saturate(remap(perlin, worley - 1.0f, 1.0f, 0.0f, 1.0f));
+  if (combination == kPerlinWorleyErode) return saturate(remap(perlin, min(1.0f - worley, 0.999f), 1.0f, 0.0f, 1.0f));
+  return saturate(remap(worley, 0.0f, 1.0f, 0.0f, perlin));
 }

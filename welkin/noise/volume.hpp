@@ -26,7 +26,7 @@ struct Volume {
 // The value that a half float holds after rounding to nearest even, as a float; infinite beyond 65504.
 float roundedToHalf(float value);
 
-// Rounds every texel so, as OpenGL does when it stores the volume in a half float texture.
+// Rounds every texel so: what a half float texture of the volume holds.
 void roundToHalf(Volume& volume);
 
 }  // namespace welkin
