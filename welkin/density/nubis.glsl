@@ -40,15 +40,17 @@ FN Real erode(IN(Real) base, IN(Real) modifier, IN(float) amount) {
 // As profileExtinction; `full` false leaves the detail out (the cheap sample of 004 ch. 4.5.2). Its second number is the
 // cheap density, zero or less where no full sample can be in cloud.
 FN Vec3 nubisExtinction(IN(Vec3) point, IN(Mask) full, IN(Real) dither, IN(LayerParams) c, IN(ClipParams) clip,
-                        IN(Sampler2Array) weather, IN(Sampler3) baseNoise, IN(Sampler3) detailNoise,
-                        IN(Sampler2) curlNoise) {
+                        IN(Sampler2Array) weather, IN(Sampler2Array) weather2, IN(Sampler3) baseNoise,
+                        IN(Sampler3) detailNoise, IN(Sampler2) curlNoise) {
   Vec3 q = unsheared(point, c);
-  Vec4 w = sampleWeather(weather, clip, Vec2(q.x, q.y), dither);
-  Real h = (q.z - c.base - w.w) / c.thickness;
+  Vec3 place = weatherPlace(clip, Vec2(q.x, q.y), dither);
+  Vec2 w = xy(sample2Array(weather, xy(place), place.z));
+  Vec2 extra = xy(sample2Array(weather2, xy(place), place.z));
+  Real h = (q.z - c.base - extra.y) / c.thickness;
   Mask within = both(h > 0.0f, h < 1.0f);
   h = saturate(h);
   Vec4 shape = sample3(baseNoise, q * c.noise.w + xyz(c.noise));
-  Real base = baseCloud(Vec2(shape.x, shape.y)) * densityHeightGradient(h, w.z);
+  Real base = baseCloud(Vec2(shape.x, shape.y)) * densityHeightGradient(h, w.y);
   base = select(within, applyCoverage(base, w.x), Real(0.0f));
   Vec4 curl = sample2(curlNoise, Vec2(q.x * c.curl.w + c.curl.x, q.y * c.curl.w + c.curl.y));
   Real swirl = c.curlAmplitude * (1.0f - h);
@@ -56,5 +58,5 @@ FN Vec3 nubisExtinction(IN(Vec3) point, IN(Mask) full, IN(Real) dither, IN(Layer
   Real detail = sample3(detailNoise, moved * c.detailing.w + xyz(c.detailing)).x;
   Real eroded = erode(base, detailModifier(detail, h, c.transition), c.detailErosion);
   Real density = select(full, eroded, base);
-  return Vec3(c.extinction * density, base, c.extinction * density * w.y);
+  return Vec3(c.extinction * density, base, c.extinction * density * extra.x);
 }

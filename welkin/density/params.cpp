@@ -45,7 +45,7 @@ float chanceForCoverage(float coverage, float falloff) {
   const double share = 3.14159265 * 0.146 * 0.62;
   const auto cover = [&](double rate) {
     double clear = 1.0;
-    for (int c = 0; c < 4; ++c, rate *= falloff) clear *= 1.0 - share * (1.0 - std::exp(-rate));
+    for (int c = 0; c < 3; ++c, rate *= falloff) clear *= 1.0 - share * (1.0 - std::exp(-rate));
     return 1.0 - clear;
   };
   double low = 0.0, high = 64.0;
@@ -108,6 +108,7 @@ law::LayerParams layerParams(const Layer& layer, const glm::dvec3& anchor, const
   p.warp = s.warp;
   p.anvilDensity = s.anvilDensity;
   p.hasAnvil = layer.weather.anvil > 0.0f ? 1 : 0;
+  p.needsExtra = p.hasAnvil || layer.weather.precipitation > 0.0f || !layer.weather.map.empty() ? 1 : 0;
   p.shape = static_cast<int>(cloud.shape);
   const Shell shell = shellOf(layer);
   p.bottom = shell.bottom;
@@ -185,9 +186,8 @@ Shell shellOf(const Layer& layer) {
   if (cloud.shape == LayerShape::nubis)
     return {cloud.base, cloud.base + cloud.thickness + layer.weather.mapBaseRange};
   const float shift = layer.profile.baseVariation + layer.profile.baseRagged;
-  // Closed sheets and cells vary their tops by up to 40 %; erosion only removes.
-  const float top = cloud.thickness * (layer.weather.population == Population::cells ||
-                                               layer.weather.population == Population::uniform ? 1.5f : 1.05f);
+  // Type and the variation of closed sheets raise tops by up to 40 %; erosion only removes.
+  const float top = cloud.thickness * 1.45f;
   return {std::max(cloud.base - shift, 0.0f), cloud.base + top + shift + layer.weather.mapBaseRange};
 }
 

@@ -3,7 +3,8 @@
 // double precision, so that the pattern neither repeats nor loses precision far from the origin.
 //
 // A texel of weather is (height of the cloud top above its base in m, shift of the base in m, anvil 0..1,
-// precipitation 0..1) for shape "profile" and (coverage, precipitation, type, shift of the base in m) for "nubis".
+// precipitation 0..1) for shape "profile" and (coverage, type, precipitation, shift of the base in m) for "nubis". It is
+// cached in two textures of two channels, since "profile" rarely needs the second.
 
 // A lattice of rectangles seen from the anchor: cell and fraction of the anchor in the lattice, edges of a cell in m,
 // and its x axis as a unit vector.
@@ -22,7 +23,7 @@ struct WeatherParams {
   float probability, falloff, clustering, roughness;  // chance of class 0; chance of a class against the one before
   float thickness, baseVariation, baseRange, mapInverseSize;
   float mapOffsetX, mapOffsetY, downwindX, downwindY;
-  int population, useMap, seed, pad0;
+  int population, useMap, seed, spare0;
 };
 
 const int kPopulationDomes = 0;
@@ -121,7 +122,7 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     // Tops grow with the cloud's width; type lowers or raises them.
     Real lift = 1.0f;
     if (w.anvil <= 0.0f) lift = exp(0.75f * log(max(relative, 1e-4f)));
-    Real top = w.thickness * growth(place, w) * mix(Real(0.35f), Real(1.0f), map4.z) * lift * (0.8f + 0.2f * u);
+    Real top = w.thickness * growth(place, w) * mix(Real(0.6f), Real(1.4f), map4.z) * lift * (0.8f + 0.2f * u);
     Real best = dome(dot(d, d), 0.72f * r, 0.55f * top);
     Uint s = h2;
     for (int j = 0; j < 6; ++j) {
@@ -188,12 +189,12 @@ FN Vec4 profileWeather(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map) {
   Real height = 0.0f;
   Real anvil = 0.0f;
   if (w.population == kPopulationCells) {
-    height = closedCells(q, w, map4.x) * mix(Real(0.6f), Real(1.2f), map4.z);
+    height = closedCells(q, w, map4.x) * mix(Real(0.6f), Real(1.4f), map4.z);
   } else if (w.population == kPopulationUniform) {
     height = uniformSheet(q, w, map4.x);
   } else {
     float chance = w.probability;
-    for (int c = 0; c < 4; ++c) {
+    for (int c = 0; c < 3; ++c) {
       Vec2 found = cloudsOfClass(q, w, map, 1 << c, chance);
       height = max(height, found.x);
       anvil = max(anvil, found.y);
@@ -218,7 +219,7 @@ FN Vec4 nubisWeather(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map) {
   if (w.useMap != 0) coverage = map4.x;
   Real rain = map4.y * smoothstep(0.55f, 0.9f, coverage);
   Real type = saturate(map4.z + 0.5f * (latticeNoise(p, w.clusters, 2, seed + 71u) - 0.5f));
-  return Vec4(max(coverage, 0.7f * rain), rain, mix(type, Real(1.0f), rain), w.baseRange * map4.w);
+  return Vec4(max(coverage, 0.7f * rain), mix(type, Real(1.0f), rain), rain, w.baseRange * map4.w);
 }
 
 // Clip levels: nested squares round the camera, each a layer of one texture, cached texels of the function above.
@@ -227,16 +228,17 @@ struct ClipLevel {
 };
 struct ClipParams {
   ClipLevel level0, level1, level2, level3;
-  int count, pad0, pad1, pad2;
+  float firstSlice, spare0, spare1;
+  int count;
 };
 
 FN Mask insideLevel(IN(Vec2) uv, IN(Real) margin) {
   return max(abs(uv.x - 0.5f), abs(uv.y - 0.5f)) < 0.5f - margin;
 }
 
-// The cached weather at p: the finest level that holds it. `dither` in [0, 1) moves the border of the levels a little,
-// so that it does not show.
-FN Vec4 sampleWeather(IN(Sampler2Array) weather, IN(ClipParams) clip, IN(Vec2) p, IN(Real) dither) {
+// Where the cached weather of p stands, (u, v, layer): the finest level that holds it. `dither` in [0, 1) moves the
+// border of the levels a little, so that it does not show.
+FN Vec3 weatherPlace(IN(ClipParams) clip, IN(Vec2) p, IN(Real) dither) {
   Vec2 uv = p * clip.level0.inverseSize + Vec2(clip.level0.offsetX, clip.level0.offsetY);
   Real layer = 0.0f;
   Real edge = 1.0f + 3.0f * dither;
@@ -255,5 +257,5 @@ FN Vec4 sampleWeather(IN(Sampler2Array) weather, IN(ClipParams) clip, IN(Vec2) p
       layer = select(outside, Real(3.0f), layer);
     }
   }
-  return sample2Array(weather, uv, layer);
+  return Vec3(uv.x, uv.y, layer + clip.firstSlice);
 }

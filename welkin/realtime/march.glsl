@@ -27,25 +27,6 @@ FN Vec3 coneKernel(IN(Real) k) {
   return Vec3(x, y, z) * 2.0f - Vec3(1.0f);
 }
 
-// Sunlight scattered toward the eye: octaves of multiple scattering (Wrenninge 2013, Hillaire 2016). `tau` is the
-// optical depth toward the sun.
-FN Real sunScattering(IN(Real) cosTheta, IN(Real) tau, IN(MarchParams) m) {
-  Real sum = 0.0f;
-  float a = 1.0f;
-  float b = 1.0f;
-  float c = 1.0f;
-  for (int i = 0; i < m.octaves; ++i) {
-    Real phase = mix(phaseHenyeyGreenstein(cosTheta, Real(m.forwardG * c)),
-                     phaseHenyeyGreenstein(cosTheta, Real(m.backwardG * c)), Real(m.backwardWeight));
-    sum += a * phase * exp(-b * tau);
-    if (i == 0) a *= m.octaveGain;
-    a *= m.contribution;
-    b *= m.octaveExtinction;
-    c *= m.eccentricity;
-  }
-  return sum;
-}
-
 // Marches the ray from the anchor along `dir` to `limit` (m). `sunLow` and `sunHigh`: sunlight (klx) at the bottom and
 // top of the clouds. `jitter`: two numbers in [0, 1) that place the steps.
 FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sunHigh, IN(Vec2) jitter,
@@ -67,7 +48,20 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   tEnd = min(min(tEnd, min(tGround, limit)), m.maxDistance);
   Mask drawGround = both(both(hitsGround, tGround <= limit), toMask(m.groundAlbedo.w > 0.0f));
 
+  // Octaves of multiple scattering (Wrenninge 2013, Hillaire 2016): each with less energy, less extinction and a rounder
+  // phase function than the one before.
   Real cosTheta = dot(dir, sun);
+  Real phases[8];
+  float octaveGain = 1.0f;
+  float roundness = 1.0f;
+  for (int i = 0; i < 8; ++i) {
+    phases[i] = octaveGain * mix(phaseHenyeyGreenstein(cosTheta, Real(m.forwardG * roundness)),
+                                 phaseHenyeyGreenstein(cosTheta, Real(m.backwardG * roundness)), Real(m.backwardWeight));
+    if (i >= m.octaves) phases[i] = Real(0.0f);
+    if (i == 0) octaveGain = m.octaveGain;
+    octaveGain *= m.contribution;
+    roundness *= m.eccentricity;
+  }
   Real steps = mix(Real(float(m.fixedStepsHorizon)), Real(float(m.fixedSteps)), abs(dot(dir, up)));
   Real rayStep = max((tEnd - t) / max(steps, 1.0f), 1.0f);
   Real lastStep = clamp(t * m.stepScale, m.minStep, m.maxStep);
@@ -178,7 +172,13 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
       source += xyz(m.ambientGround) * (0.25f * m.ambientGround.w * (1.0f - height));
     } else {
       Real powder = mix(Real(1.0f), 1.0f - exp(-2.0f * tau), Real(m.sun.w));
-      source = sunlight * (sunScattering(cosTheta, thick, m) * powder);
+      Real scattered = 0.0f;
+      Real reach = thick;
+      for (int i = 0; i < 8; ++i) {
+        if (i < m.octaves) scattered += phases[i] * exp(-reach);
+        reach *= m.octaveExtinction;
+      }
+      source = sunlight * (scattered * powder);
       Real above = sigma * max(q.z - m.bottom, 0.0f);
       source += xyz(m.ambientSky) * (m.ambientSky.w * (0.75f * exp(-0.12f * tauUp) + 0.06f));
       source += xyz(m.ambientGround) * (m.ambientGround.w * (0.5f * exp(-0.072f * above) + 0.03f));

@@ -76,7 +76,7 @@ struct Renderer::State {
   glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};
   gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
   std::vector<gl::Texture> maps;
-  std::vector<std::unique_ptr<WeatherLevels>> weather;
+  std::unique_ptr<WeatherLevels> weather;
   gl::Program march, resolve, composite, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
@@ -153,10 +153,10 @@ void Renderer::State::makeMarch() {
   std::string layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     const bool nubis = scene.layers[i].cloud.shape == LayerShape::nubis;
-    layers += nubis ? fmt::format("found = nubisExtinction(q, full, sky.dither, uLayer[{0}], uClip[{0}], uWeather{0}, "
+    layers += nubis ? fmt::format("found = nubisExtinction(q, full, sky.dither, uLayer[{0}], uClip[{0}], uWeather, uExtra, "
                                   "uNubisBase, uNubisDetail, uCurl); ", i)
                     : fmt::format("found = profileExtinction(q, footprint, sky.dither, uLayer[{0}], uClip[{0}], "
-                                  "uWeather{0}, uBaseNoise, uDetailNoise, uWarpNoise); ", i);
+                                  "uWeather, uExtra, uBaseNoise, uDetailNoise, uWarpNoise); ", i);
     layers += "sum = vec3(sum.x + found.x, max(sum.y, found.y), sum.z + found.z); ";
   }
   const std::string defines = fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define SKY_LAYERS {}\n{}",
@@ -177,10 +177,11 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.billowMix = scene.layers.empty() ? 0.75f : scene.layers[0].profile.billowMix;
   s.makeTextures(textures);
   s.makeMarch();
-  s.weather.clear();
+  s.weather.reset();
+  if (!scene.layers.empty())
+    s.weather = std::make_unique<WeatherLevels>(s.gl, weatherExtent(scene.quality.preset), static_cast<int>(scene.layers.size()));
   s.maps.clear();
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-    s.weather.push_back(std::make_unique<WeatherLevels>(s.gl, weatherExtent(scene.quality.preset)));
     const Volume* map = i < textures.weatherMaps.size() ? &textures.weatherMaps[i] : nullptr;
     if (!scene.layers[i].weather.map.empty() && (!map || map->texels.empty()))
       throw Error(ErrorKind::badInput, "", "the weather map '" + scene.layers[i].weather.map + "' was not handed to the renderer");
@@ -217,7 +218,7 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
 
 void Renderer::State::weatherPass(const glm::dvec3& position, const Drift& drift) {
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
-    weather[i]->update(scene.layers[i], glm::dvec2(position), drift, scene.seed, weatherProgram, framebuffer,
+    weather->update(static_cast<int>(i), scene.layers[i], glm::dvec2(position), drift, scene.seed, weatherProgram, framebuffer,
                        weatherBuffer, maps[i] ? maps[i] : white);
 }
 
@@ -226,7 +227,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
   LayersBlock block{};
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     block.layers[i] = layerParams(scene.layers[i], position, drift);
-    block.clips[i] = weather[i]->params(glm::dvec2(position), drift);
+    block.clips[i] = weather->params(static_cast<int>(i), glm::dvec2(position), drift);
   }
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
     block.sheets[i] = sheetParams(scene.sheets[i], glm::dvec2(position), drift.time, scene.seed);
@@ -252,8 +253,10 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
   bind(march, "uAerialInscatter", sky.aerialInscatter(), unit++);
   bind(march, "uAerialTransmittance", sky.aerialTransmittance(), unit++);
   bindHostDepth(march, frame, unit++);
-  for (std::size_t i = 0; i < weather.size(); ++i)
-    bind(march, fmt::format("uWeather{}", i).c_str(), weather[i]->texture(), unit++);
+  if (weather) {
+    bind(march, "uWeather", weather->main(), unit++);
+    bind(march, "uExtra", weather->extra(), unit++);
+  }
   if (uses(LayerShape::profile)) {
     bind(march, "uBaseNoise", profileBase, unit++);
     bind(march, "uDetailNoise", profileDetail, unit++);
@@ -376,7 +379,10 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   add("nubis base shape", s.nubisBase);
   add("nubis detail", s.nubisDetail);
   add("curl", s.curl);
-  for (std::size_t i = 0; i < s.weather.size(); ++i) add(fmt::format("weather {}", i), s.weather[i]->texture());
+  if (s.weather) {
+    add("weather", s.weather->main());
+    add("weather extra", s.weather->extra());
+  }
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
   add("no map", s.white);
   add("sky transmittance", s.sky.transmittance());

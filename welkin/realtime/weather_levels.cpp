@@ -8,28 +8,32 @@ namespace {
 constexpr double kLeash = 0.08;  // share of a level's edge that the camera may move before it is drawn again
 }
 
-WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent)
+WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers)
     : gl_(gl),
       extent_(extent),
-      texture_(gl, gl::Texture::Kind::array, gl::kRgba16F, extent.texels, extent.texels, extent.levels,
-               gl::Filter::linear, gl::Addressing::clamp, nullptr) {}
+      main_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels, gl::Filter::linear,
+            gl::Addressing::clamp, nullptr),
+      extra_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels, gl::Filter::linear,
+             gl::Addressing::clamp, nullptr),
+      levels_(static_cast<std::size_t>(layers * extent.levels)) {}
 
 double WeatherLevels::edge(int level) const { return extent_.finest * std::pow(extent_.ratio, level); }
 
-int WeatherLevels::update(const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
+int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
                           const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
                           const gl::Texture& map) {
   const glm::dvec2 inAir = position - driftOffset(drift);
   int drawn = 0;
   for (int level = 0; level < extent_.levels; ++level) {
-    const auto i = static_cast<std::size_t>(level);
-    const glm::dvec2 away = glm::abs(inAir - centre_[i]);
-    if (fresh_[i] && std::max(away.x, away.y) < kLeash * edge(level)) continue;
+    const int slice = index * extent_.levels + level;
+    Level& cached = levels_[static_cast<std::size_t>(slice)];
+    const glm::dvec2 away = glm::abs(inAir - cached.centre);
+    if (cached.fresh && std::max(away.x, away.y) < kLeash * edge(level)) continue;
     const double texel = edge(level) / extent_.texels;
-    centre_[i] = glm::floor(inAir / texel) * texel;
+    cached.centre = glm::floor(inAir / texel) * texel;
     // Drawn with the level's centre as anchor, in still air.
     const law::WeatherParams params =
-        weatherParams(layer, centre_[i], Drift{drift.windSpeed, drift.windFrom, 0.0}, seed);
+        weatherParams(layer, cached.centre, Drift{drift.windSpeed, drift.windFrom, 0.0}, seed);
     buffer.upload(&params, sizeof params);
     buffer.bind(0);
     gl_.UseProgram(program.id());
@@ -39,22 +43,24 @@ int WeatherLevels::update(const Layer& layer, const glm::dvec2& position, const 
     gl_.Uniform1i(program.uniform("uMap"), 0);
     gl_.Uniform4f(program.uniform("uLevel"), 0.0f, 0.0f, static_cast<float>(edge(level)),
                   layer.cloud.shape == LayerShape::nubis ? 1.0f : 0.0f);
-    const gl::Texture* targets[] = {&texture_};
-    framebuffer.target(targets, level);
+    const gl::Texture* targets[] = {&main_, &extra_};
+    framebuffer.target(targets, slice);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-    fresh_[i] = true;
+    cached.fresh = true;
     ++drawn;
   }
   return drawn;
 }
 
-law::ClipParams WeatherLevels::params(const glm::dvec2& position, const Drift& drift) const {
+law::ClipParams WeatherLevels::params(int index, const glm::dvec2& position, const Drift& drift) const {
   const glm::dvec2 inAir = position - driftOffset(drift);
   law::ClipParams clip{};
   law::ClipLevel* levels[] = {&clip.level0, &clip.level1, &clip.level2, &clip.level3};
   clip.count = extent_.levels;
+  clip.firstSlice = static_cast<float>(index * extent_.levels);
   for (int level = 0; level < extent_.levels; ++level) {
-    const glm::dvec2 offset = (inAir - centre_[static_cast<std::size_t>(level)]) / edge(level) + 0.5;
+    const Level& cached = levels_[static_cast<std::size_t>(index * extent_.levels + level)];
+    const glm::dvec2 offset = (inAir - cached.centre) / edge(level) + 0.5;
     *levels[level] = {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(1.0 / edge(level)),
                       1.0f / static_cast<float>(extent_.texels) + 0.01f};
   }

@@ -1,8 +1,8 @@
 #pragma once
-// Clip levels of the weather: nested squares round the camera in one texture array, made anew when the camera leaves
-// the middle of a level or the weather changes.
-#include <array>
+// Clip levels of the weather: nested squares round the camera in two texture arrays, those of all cloud layers one after
+// the other, made anew when the camera leaves the middle of a level or the weather changes.
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "welkin/density/params.hpp"
 #include "welkin/gl/objects.hpp"
@@ -19,25 +19,29 @@ struct WeatherExtent {
 
 class WeatherLevels {
  public:
-  WeatherLevels(const gl::Api& gl, const WeatherExtent& extent);
+  WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers);
 
-  // Makes what is missing for a camera at `position`. `map`: the layer's authoring picture (a white texel if none).
+  // Makes what layer `index` lacks for a camera at `position`. `map`: its authoring picture (a white texel if none).
   // Returns the number of levels drawn. Leaves framebuffer, program and viewport changed.
-  int update(const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed, const gl::Program& program,
-             gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer, const gl::Texture& map);
-  void invalidate() { fresh_.fill(false); }
+  int update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
+             const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer, const gl::Texture& map);
 
   // For positions relative to `position`.
-  law::ClipParams params(const glm::dvec2& position, const Drift& drift) const;
-  const gl::Texture& texture() const { return texture_; }
+  law::ClipParams params(int index, const glm::dvec2& position, const Drift& drift) const;
+  // (height or coverage, base shift or type) and (anvil or precipitation, precipitation or base shift).
+  const gl::Texture& main() const { return main_; }
+  const gl::Texture& extra() const { return extra_; }
 
  private:
+  struct Level {
+    glm::dvec2 centre{0.0};  // in the air's own frame, which drifts with the wind
+    bool fresh = false;
+  };
   double edge(int level) const;
   const gl::Api& gl_;
   WeatherExtent extent_;
-  gl::Texture texture_;
-  std::array<glm::dvec2, 4> centre_{};  // in the air's own frame, which drifts with the wind
-  std::array<bool, 4> fresh_{};
+  gl::Texture main_, extra_;
+  std::vector<Level> levels_;  // layer by layer
 };
 
 }  // namespace welkin::realtime
