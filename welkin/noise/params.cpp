@@ -56,8 +56,8 @@ float quantile(std::vector<float>& values, double share) {
   return *at;
 }
 std::vector<float> channel(const std::vector<glm::vec2>& raw, int c) {
-  std::vector<float> values;
-  for (const glm::vec2& v : raw) values.push_back(v[c]);
+  std::vector<float> values(raw.size());
+  std::transform(raw.begin(), raw.end(), values.begin(), [c](const glm::vec2& v) { return v[c]; });
   return values;
 }
 // From the 2 % and 98 % quantiles to 0 and 1.

@@ -17,10 +17,10 @@ struct ChoiceNames<PerlinWorley> {
 // twice and four times as many (000 ch. 4.3.1).
 struct BaseShapeSettings {
   int size = 128;
-  int perlinFrequency = 8;
-  int perlinOctaves = 3;
+  int perlinFrequency = 4;
+  int perlinOctaves = 4;
   float perlinGain = 0.5f;
-  int worleyCells = 8;
+  int worleyCells = 4;
   float lowWeight = 0.625f;
   float midWeight = 0.25f;
   float highWeight = 0.125f;

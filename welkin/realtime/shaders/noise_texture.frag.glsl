@@ -1,4 +1,4 @@
-// One slice of a noise texture. NOISE_PARAMS names the law's parameter struct, NOISE_TEXEL(uvw, params) its texel as vec4.
+// One slice of a noise texture. NOISE_PARAMS names the law's parameter struct, NOISE_TEXEL(uvw, p) its texel as a vec4.
 #include "welkin/base/law.glsl"
 #include "welkin/noise/hash.glsl"
 #include "welkin/noise/lattice.glsl"
