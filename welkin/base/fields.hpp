@@ -210,6 +210,14 @@ std::span<const Field> fieldsOf() {
   return kTable;
 }
 
+// Whether two values agree in every field.
+template <class T>
+bool sameFields(const T& a, const T& b) {
+  for (const Field& f : fieldsOf<T>())
+    if (f.get(&a) != f.get(&b)) return false;
+  return true;
+}
+
 // A FieldTable's make() returns this: the number of rows is part of the type.
 template <class... Fields>
 std::array<Field, sizeof...(Fields)> fieldRows(Fields... fields) {

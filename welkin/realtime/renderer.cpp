@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -10,9 +11,9 @@
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/gl/state.hpp"
-#include "welkin/noise/textures.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/march_params.hpp"
+#include "welkin/realtime/noise_textures.hpp"
 #include "welkin/realtime/shader_sources.hpp"
 #include "welkin/realtime/sky_tables.hpp"
 #include "welkin/realtime/timers.hpp"
@@ -80,8 +81,8 @@ struct Renderer::State {
   gl::Program march, resolve, composite, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
-  bool counting = false;
-  std::uint64_t revision = 0;
+  bool counting = false, customised = false;
+  std::shared_ptr<const SkyModel> userSky;
   double samples = 0.0, rays = 0.0;
 
   explicit State(const gl::Loader& loader)
@@ -96,18 +97,12 @@ struct Renderer::State {
     weatherProgram = gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
   }
 
-  gl::Texture volume(const Volume& v, const gl::Format& format) {
-    return gl::Texture(gl, v.depth > 1 ? gl::Texture::Kind::volume : gl::Texture::Kind::plane, format, v.width, v.height,
-                       v.depth, gl::Filter::linear, gl::Addressing::repeat, v.texels.data());
+  static bool uses(const Scene& sky, LayerShape shape) {
+    return std::any_of(sky.layers.begin(), sky.layers.end(), [&](const Layer& l) { return l.cloud.shape == shape; });
   }
 
-  bool uses(LayerShape shape) const {
-    for (const Layer& layer : scene.layers)
-      if (layer.cloud.shape == shape) return true;
-    return false;
-  }
-
-  void makeTextures(const CustomTextures& custom);
+  void makeTextures(const Scene& next, const CustomTextures& custom);
+  void makeWeather(const Scene& next, const CustomTextures& custom);
   void makeMarch();
   void makeTargets(View::State& view, const Frame& frame) const;
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const {
@@ -133,19 +128,34 @@ struct Renderer::State {
 Renderer::Renderer(const gl::Loader& loader) : state_(std::make_unique<State>(loader)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::State::makeTextures(const CustomTextures& custom) {
-  const auto orElse = [](const Volume& own, auto generate) { return own.texels.empty() ? generate() : own; };
-  const NoiseSettings& noise = scene.noise;
-  if (uses(LayerShape::profile)) {
-    profileBase = volume(orElse(custom.profileBase, [&] { return bakeProfileBasePacked(noise.profile, billowMix); }), gl::kR16F);
-    profileDetail = volume(orElse(custom.profileDetail, [&] { return bakeProfileDetail(noise.profile); }), gl::kRg16F);
-    profileWarp = volume(orElse(custom.profileWarp, [&] { return bakeProfileWarp(noise.profile); }), gl::kRg16F);
+void Renderer::State::makeTextures(const Scene& next, const CustomTextures& custom) {
+  const bool fresh = !hasScene;
+  const auto make = [&](gl::Texture& texture, const Volume& own, bool changed, auto generate) {
+    if (!own.texels.empty())
+      texture = textureFromVolume(gl, own);
+    else if (fresh || changed || !texture || customised)
+      texture = generate();
+  };
+  const float mix = next.layers.empty() ? billowMix : next.layers.front().profile.billowMix;
+  const NoiseSettings &old = scene.noise, &now = next.noise;
+  if (uses(next, LayerShape::profile)) {
+    const bool changed = !sameFields(old.profile, now.profile);
+    make(profileBase, custom.profileBase, changed || mix != billowMix,
+         [&] { return generateProfileBasePacked(gl, now.profile, mix); });
+    make(profileDetail, custom.profileDetail, changed, [&] { return generateProfileDetail(gl, now.profile); });
+    make(profileWarp, custom.profileWarp, changed, [&] { return generateProfileWarp(gl, now.profile); });
   }
-  if (uses(LayerShape::nubis)) {
-    nubisBase = volume(orElse(custom.nubisBase, [&] { return bakeBaseShapePacked(noise.baseShape); }), gl::kRg16F);
-    nubisDetail = volume(orElse(custom.nubisDetail, [&] { return bakeDetailPacked(noise.detail); }), gl::kR16F);
-    curl = volume(orElse(custom.curl, [&] { return bakeCurl(noise.curl); }), gl::kRg16F);
+  if (uses(next, LayerShape::nubis)) {
+    make(nubisBase, custom.nubisBase, !sameFields(old.baseShape, now.baseShape),
+         [&] { return generateBaseShapePacked(gl, now.baseShape); });
+    make(nubisDetail, custom.nubisDetail, !sameFields(old.detail, now.detail),
+         [&] { return generateDetailPacked(gl, now.detail); });
+    make(curl, custom.curl, !sameFields(old.curl, now.curl), [&] { return generateCurl(gl, now.curl); });
   }
+  billowMix = mix;
+  customised = !custom.profileBase.texels.empty() || !custom.profileDetail.texels.empty() ||
+               !custom.profileWarp.texels.empty() || !custom.nubisBase.texels.empty() ||
+               !custom.nubisDetail.texels.empty() || !custom.curl.texels.empty();
 }
 
 // The march is compiled for the layers at hand: their number and shapes are part of its text.
@@ -172,23 +182,38 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   if (scene.layers.size() > kMaxLayers || scene.sheets.size() > kMaxSheets)
     throw Error(ErrorKind::badInput, "", fmt::format("a sky has at most {} layers and {} sheets", kMaxLayers, kMaxSheets));
   const gl::StateGuard guard(s.gl);
-  s.scene = scene;
+  s.gl.BindVertexArray(s.triangle.id());
   s.sunDirection = sunDirection(scene.sun);
-  s.billowMix = scene.layers.empty() ? 0.75f : scene.layers[0].profile.billowMix;
-  s.makeTextures(textures);
-  s.makeMarch();
-  s.weather.reset();
-  if (!scene.layers.empty())
-    s.weather = std::make_unique<WeatherLevels>(s.gl, weatherExtent(scene.quality.preset), static_cast<int>(scene.layers.size()));
-  s.maps.clear();
-  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-    const Volume* map = i < textures.weatherMaps.size() ? &textures.weatherMaps[i] : nullptr;
-    if (!scene.layers[i].weather.map.empty() && (!map || map->texels.empty()))
-      throw Error(ErrorKind::badInput, "", "the weather map '" + scene.layers[i].weather.map + "' was not handed to the renderer");
-    s.maps.push_back(map && !map->texels.empty() ? s.volume(*map, gl::kRgba16F) : gl::Texture());
-  }
+  s.makeTextures(scene, textures);
+  s.makeWeather(scene, textures);
+  s.userSky = textures.sky;
+  s.scene = scene;
   s.hasScene = true;
-  ++s.revision;
+  s.makeMarch();
+}
+
+void Renderer::State::makeWeather(const Scene& next, const CustomTextures& custom) {
+  const WeatherExtent extent = weatherExtent(next.quality.preset);
+  const bool pictures = !custom.weatherMaps.empty();
+  bool same = weather && !pictures && maps.size() == next.layers.size() && scene.seed == next.seed &&
+              sameFields(scene.wind, next.wind) && scene.quality.preset == next.quality.preset;
+  for (std::size_t i = 0; same && i < next.layers.size(); ++i) {
+    const Layer &a = scene.layers[i], &b = next.layers[i];
+    same = !maps[i] && sameFields(a.weather, b.weather) && sameFields(a.cloud, b.cloud) &&
+           sameFields(a.nubis, b.nubis) && a.profile.baseVariation == b.profile.baseVariation;
+  }
+  if (same) return;
+  weather.reset();
+  maps.clear();
+  if (next.layers.empty()) return;
+  weather = std::make_unique<WeatherLevels>(gl, extent, static_cast<int>(next.layers.size()));
+  for (std::size_t i = 0; i < next.layers.size(); ++i) {
+    const std::string& name = next.layers[i].weather.map;
+    const bool given = i < custom.weatherMaps.size() && !custom.weatherMaps[i].texels.empty();
+    if (!name.empty() && !given)
+      throw Error(ErrorKind::badInput, "", "the weather map '" + name + "' was not handed to the renderer");
+    maps.push_back(given ? textureFromVolume(gl, custom.weatherMaps[i]) : gl::Texture());
+  }
 }
 
 void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
@@ -213,7 +238,7 @@ void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
 
 void Renderer::State::skyPass(const glm::dvec3& position) {
   const double altitude = planetParams(position).altitude;
-  sky.update(scene.atmosphere, sunDirection, std::max(altitude, 0.0), scene.ground.albedo);
+  sky.update(scene.atmosphere, sunDirection, std::max(altitude, 0.0), scene.ground.albedo, userSky.get());
 }
 
 void Renderer::State::weatherPass(const glm::dvec3& position, const Drift& drift) {
@@ -257,12 +282,12 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
     bind(march, "uWeather", weather->main(), unit++);
     bind(march, "uExtra", weather->extra(), unit++);
   }
-  if (uses(LayerShape::profile)) {
+  if (uses(scene, LayerShape::profile)) {
     bind(march, "uBaseNoise", profileBase, unit++);
     bind(march, "uDetailNoise", profileDetail, unit++);
     bind(march, "uWarpNoise", profileWarp, unit++);
   }
-  if (uses(LayerShape::nubis)) {
+  if (uses(scene, LayerShape::nubis)) {
     bind(march, "uNubisBase", nubisBase, unit++);
     bind(march, "uNubisDetail", nubisDetail, unit++);
     bind(march, "uCurl", curl, unit++);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "welkin/atmosphere/tables.hpp"
 #include "welkin/gl/loader.hpp"
 #include "welkin/noise/volume.hpp"
 #include "welkin/scene/scene.hpp"
@@ -68,10 +69,12 @@ struct MemoryRow {
   std::size_t bytes = 0;
 };
 
-// Textures that replace the generated ones; an empty volume keeps Welkin's own. Layouts as noise/textures.hpp says.
+// What replaces Welkin's own: an empty volume keeps the generated texture. Layouts as the packed textures of
+// noise/textures.hpp.
 struct CustomTextures {
   Volume profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl;
   std::vector<Volume> weatherMaps;  // one for each layer: RGBA authoring map
+  std::shared_ptr<const SkyModel> sky;  // paints the sky in place of atmosphere.model
 };
 
 class Renderer {
