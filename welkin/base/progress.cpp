@@ -23,7 +23,7 @@ Progress stageOf(const Progress& whole, double begin, double end) {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kRedrawSeconds = 0.1, kLineSeconds = 10.0, kLineShare = 0.1;
+constexpr double kRedrawSeconds = 0.1, kLineSeconds = 10.0, kLines = 10.0;
 constexpr int kBarWidth = 24;
 
 std::string duration(double seconds) {
@@ -61,7 +61,7 @@ struct ProgressDisplay::State {
       std::fflush(stderr);
     } else {
       if (shownAt < 0) shownAt = 0;
-      if (now - shownAt < kLineSeconds && done - shownDone < kLineShare) return;
+      if (now - shownAt < kLineSeconds && std::floor(done * kLines) <= std::floor(shownDone * kLines)) return;
       fmt::print(stderr, "{}\n", progressLine(task, done, now));
     }
     shownAt = now;

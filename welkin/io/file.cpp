@@ -113,7 +113,7 @@ void requireWritable(const std::string& path) {
   const std::filesystem::path parent = std::filesystem::path(path).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   if (!std::filesystem::is_directory(folder, ignored)) cannotWrite(path, ENOENT);
-  if (::access(folder.c_str(), W_OK) != 0) cannotWrite(path, errno);
+  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK, AT_EACCESS) != 0) cannotWrite(path, errno);
 }
 
 void writeFileAtomically(const std::string& path, std::string_view bytes) {

@@ -1,0 +1,197 @@
+#include <gtest/gtest.h>
+
+#include <ImfArray.h>
+#include <ImfRgbaFile.h>
+#include <ImfStandardAttributes.h>
+#include <png.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "welkin/base/error.hpp"
+#include "welkin/io/exr.hpp"
+#include "welkin/io/file.hpp"
+#include "welkin/io/png.hpp"
+#include "welkin/io/raw_volume.hpp"
+
+namespace welkin {
+namespace {
+
+class Pictures : public testing::Test {
+ protected:
+  Pictures() { std::filesystem::create_directories(folder_); }
+  ~Pictures() override { std::filesystem::remove_all(folder_); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) /
+      (std::string("welkin_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+std::vector<std::uint8_t> bytes(std::size_t count) {
+  std::mt19937 random(3);
+  std::vector<std::uint8_t> v(count);
+  for (auto& b : v) b = static_cast<std::uint8_t>(random());
+  return v;
+}
+
+TEST_F(Pictures, PngOfEveryChannelCountIsReadByLibpngItself) {
+  const png_uint_32 formats[] = {PNG_FORMAT_GRAY, PNG_FORMAT_GA, PNG_FORMAT_RGB, PNG_FORMAT_RGBA};
+  for (int channels = 1; channels <= 4; ++channels) {
+    const auto samples = bytes(static_cast<std::size_t>(7) * 5 * channels);
+    savePng(file("a.png"), 7, 5, channels, samples);
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    ASSERT_TRUE(png_image_begin_read_from_file(&image, file("a.png").c_str()));
+    EXPECT_EQ(image.format, formats[channels - 1]);
+    ASSERT_EQ(image.width, 7u);
+    ASSERT_EQ(image.height, 5u);
+    std::vector<std::uint8_t> back(PNG_IMAGE_SIZE(image));
+    ASSERT_TRUE(png_image_finish_read(&image, nullptr, back.data(), 0, nullptr));
+    EXPECT_EQ(back, samples) << channels;
+
+    const Image ours = loadPng(file("a.png"));
+    ASSERT_EQ(ours.channels, channels);
+    for (std::size_t i = 0; i < samples.size(); ++i) ASSERT_EQ(ours.pixels[i], static_cast<float>(samples[i]) / 255.0f);
+  }
+}
+
+TEST_F(Pictures, Png16KeepsItsBits) {
+  const std::vector<std::uint16_t> samples{0, 1, 256, 257, 65534, 65535};
+  savePng16(file("a.png"), 3, 2, 1, samples);
+  const Image image = loadPng(file("a.png"));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    EXPECT_EQ(image.pixels[i], static_cast<float>(samples[i]) / 65535.0f);
+}
+
+// Weather maps from paint programs may have a palette.
+TEST_F(Pictures, PngPaletteIsExpanded) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = image.height = 2;
+  image.format = PNG_FORMAT_RGB_COLORMAP;
+  image.colormap_entries = 2;
+  const std::uint8_t indices[] = {0, 1, 1, 0}, colours[] = {255, 0, 0, 0, 0, 255};
+  ASSERT_TRUE(png_image_write_to_file(&image, file("p.png").c_str(), 0, indices, 0, colours));
+  const Image read = loadPng(file("p.png"));
+  ASSERT_EQ(read.channels, 3);
+  EXPECT_EQ(read.at(0, 0)[0], 1.0f);
+  EXPECT_EQ(read.at(1, 0)[2], 1.0f);
+}
+
+TEST_F(Pictures, EveryTruncationOfAPngIsRefused) {
+  savePng(file("a.png"), 9, 4, 3, bytes(108));
+  const std::string whole = readFile(file("a.png"), 1 << 20);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    try {
+      parsePng(std::string_view(whole).substr(0, length), "cut.png");
+      ADD_FAILURE() << "accepted at " << length << " of " << whole.size();
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::badInput);
+      EXPECT_EQ(std::string(e.what()).rfind("cut.png: is not a PNG that can be read: ", 0), 0u);
+    }
+  }
+  EXPECT_NO_THROW(parsePng(whole, "whole.png"));
+}
+
+TEST_F(Pictures, SpoiltPngsAreRefusedOrReadButNeverCrash) {
+  savePng(file("a.png"), 9, 4, 3, bytes(108));
+  const std::string whole = readFile(file("a.png"), 1 << 20);
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int i = 0; i < 5000; ++i) {
+    std::string spoilt = whole;
+    for (unsigned k = 1 + random() % 3; k > 0; --k) spoilt[random() % spoilt.size()] = static_cast<char>(random());
+    try {
+      parsePng(spoilt, "spoilt.png");
+    } catch (const Error& e) {
+      ASSERT_EQ(e.kind(), ErrorKind::badInput);
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 2500);
+}
+
+TEST_F(Pictures, ExrIsReadByOpenExrItself) {
+  Image image(6, 3, 3);
+  std::mt19937 random(4);
+  for (float& v : image.pixels)
+    v = std::ldexp(static_cast<float>(random() % 1024), static_cast<int>(random() % 16) - 12);
+  for (const ExrPrecision precision : {ExrPrecision::half, ExrPrecision::full}) {
+    saveExr(file("a.exr"), image, precision);
+    Imf::RgbaInputFile rgba(file("a.exr").c_str());
+    EXPECT_EQ(rgba.compression(), Imf::ZIP_COMPRESSION);
+    EXPECT_EQ(Imf::whiteLuminance(rgba.header()), 1000.0f);
+    Imf::Array2D<Imf::Rgba> pixels(3, 6);
+    rgba.setFrameBuffer(&pixels[0][0], 1, 6);
+    rgba.readPixels(0, 2);
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 6; ++x) {
+        EXPECT_NEAR(static_cast<float>(pixels[y][x].r), image.at(x, y)[0], image.at(x, y)[0] * 1e-3);
+        EXPECT_NEAR(static_cast<float>(pixels[y][x].b), image.at(x, y)[2], image.at(x, y)[2] * 1e-3);
+      }
+  }
+  EXPECT_EQ(loadExr(file("a.exr")).pixels, image.pixels);
+}
+
+TEST_F(Pictures, ExrKeepsAlphaAndGrey) {
+  for (const int channels : {1, 4}) {
+    Image image(5, 2, channels);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = static_cast<float>(i) * 1e5f;
+    saveExr(file("a.exr"), image, ExrPrecision::full);
+    const Image back = loadExr(file("a.exr"));
+    EXPECT_EQ(back.channels, channels);
+    EXPECT_EQ(back.pixels, image.pixels);
+  }
+}
+
+// A sun does not fit in half precision; it must not turn into infinity unnoticed.
+TEST_F(Pictures, ExrRefusesWhatItWouldSpoil) {
+  Image image(2, 1, 3);
+  image.pixels[4] = 1.6e6f;
+  EXPECT_THROW(saveExr(file("a.exr"), image, ExrPrecision::half), Error);
+  EXPECT_NO_THROW(saveExr(file("a.exr"), image, ExrPrecision::full));
+  image.pixels[4] = std::nanf("");
+  try {
+    saveExr(file("b.exr"), image, ExrPrecision::full);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("pixel 1, 0"), std::string::npos) << e.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(file("b.exr")));
+}
+
+TEST_F(Pictures, EveryTruncationOfAnExrIsRefused) {
+  saveExr(file("a.exr"), Image(8, 40, 3), ExrPrecision::half);
+  const std::string whole = readFile(file("a.exr"), 1 << 20);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    writeBytes(file("cut.exr"), std::string_view(whole).substr(0, length));
+    try {
+      loadExr(file("cut.exr"));
+      ADD_FAILURE() << "accepted at " << length << " of " << whole.size();
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::badInput);
+    }
+  }
+}
+
+TEST_F(Pictures, RawVolumesSayWhatTheyHold) {
+  const std::vector<float> values{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  saveRawVolume(file("v.f32"), 2, 3, 1, 2, values);
+  const std::string raw = readFile(file("v.f32"), 1 << 20);
+  ASSERT_EQ(raw.size(), 48u);
+  EXPECT_EQ(std::memcmp(raw.data(), values.data(), 48), 0);
+  const auto header = nlohmann::json::parse(readFile(file("v.f32.json"), 1 << 20));
+  EXPECT_EQ(header["width"], 2);
+  EXPECT_EQ(header["height"], 3);
+  EXPECT_EQ(header["depth"], 1);
+  EXPECT_EQ(header["channels"], 2);
+  EXPECT_THROW(saveRawVolume(file("w.f32"), 2, 3, 1, 1, values), Error);
+}
+
+}  // namespace
+}  // namespace welkin
