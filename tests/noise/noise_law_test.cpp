@@ -118,6 +118,8 @@ TEST(Perlin, CellAndFractionWorkFarAway) {
   EXPECT_NE(a, b);
   EXPECT_NEAR(a, b, 0.01f);
   EXPECT_NE(a, law::perlin2At({far + 1, -far}, Vec2(0.25f, 0.5f), 0, 1u));
+  const float c = law::perlinFbm2At({far, -far}, Vec2(0.25f, 0.5f), 0, 6, 2, 0.5f, 1u);
+  EXPECT_NEAR(c, law::perlinFbm2At({far, -far}, Vec2(0.251f, 0.5f), 0, 6, 2, 0.5f, 1u), 0.02f);
 }
 
 // Against a search of 5^3 cells in double precision: exact wherever the answer is below the limit.

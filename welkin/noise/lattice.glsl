@@ -8,17 +8,21 @@ FN Int wrapCell(IN(Int) i, IN(int) period) {
 }
 
 // A point is a cell and a fraction in [0, 1): the form that keeps its precision far from the origin. These make it that
-// of a lattice `factor` times finer.
+// of a lattice `factor` times finer; cells wrap modulo 2^32.
+FN Int refinedCell(IN(Int) cell, IN(Real) whole, IN(int) factor) {
+  return toInt(toUint(cell) * uint(factor) + toUint(toInt(whole)));
+}
 FN void refineCell2(INOUT(IVec2) cell, INOUT(Vec2) f, IN(int) factor) {
   Vec2 p = f * toReal(factor);
   Vec2 whole = floor(p);
-  cell = IVec2(cell.x * factor + toInt(whole.x), cell.y * factor + toInt(whole.y));
+  cell = IVec2(refinedCell(cell.x, whole.x, factor), refinedCell(cell.y, whole.y, factor));
   f = p - whole;
 }
 FN void refineCell3(INOUT(IVec3) cell, INOUT(Vec3) f, IN(int) factor) {
   Vec3 p = f * toReal(factor);
   Vec3 whole = floor(p);
-  cell = IVec3(cell.x * factor + toInt(whole.x), cell.y * factor + toInt(whole.y), cell.z * factor + toInt(whole.z));
+  cell = IVec3(refinedCell(cell.x, whole.x, factor), refinedCell(cell.y, whole.y, factor),
+               refinedCell(cell.z, whole.z, factor));
   f = p - whole;
 }
 
