@@ -4,7 +4,8 @@ install(TARGETS ${WELKIN_ROOMS} EXPORT welkinTargets ARCHIVE DESTINATION ${CMAKE
 install(EXPORT welkinTargets NAMESPACE welkin:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/welkin)
 install(DIRECTORY welkin DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.hpp" PATTERN "*.glsl" PATTERN "*.inc")
-install(DIRECTORY presets DESTINATION ${CMAKE_INSTALL_DATADIR}/welkin)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/welkin)
+install(DIRECTORY presets DESTINATION ${CMAKE_INSTALL_DATADIR}/welkin FILES_MATCHING PATTERN "*.sky.toml")
 configure_package_config_file(cmake/welkinConfig.cmake.in welkinConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/welkin)
 write_basic_package_version_file(welkinConfigVersion.cmake COMPATIBILITY SameMajorVersion)

@@ -1,0 +1,37 @@
+# Installs Welkin into a fresh prefix, moves it elsewhere, and builds and runs an outside project against it.
+# cmake -DBUILD=... -DSOURCE_ROOT=... -DWORK=... -DCONFIG=... -DCOMPILER=... -P run.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE RESULT OUTPUT_VARIABLE OUTPUT ERROR_VARIABLE OUTPUT)
+  if(NOT RESULT EQUAL 0)
+    message(FATAL_ERROR "${ARGN}\n${OUTPUT}")
+  endif()
+  set(OUTPUT "${OUTPUT}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed)
+file(RENAME ${WORK}/installed ${WORK}/moved)
+file(GLOB_RECURSE CONFIGS ${WORK}/moved/*.cmake)
+foreach(FILE IN LISTS CONFIGS)
+  file(READ ${FILE} TEXT)
+  foreach(FOLDER ${SOURCE_ROOT} ${BUILD} welkin_options)
+    string(FIND "${TEXT}" "${FOLDER}" AT)
+    if(NOT AT EQUAL -1)
+      message(FATAL_ERROR "${FILE} knows ${FOLDER}")
+    endif()
+  endforeach()
+endforeach()
+
+run(${CMAKE_COMMAND} -S ${SOURCE_ROOT}/tests/consumer -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/moved
+    -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${COMPILER})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer)
+set(EXPECTED "inline:1:10: format must be 1, the only one that this version reads\nformat = 1\n\n[sun]\nelevation = 12.0\n
+[[layer]]\n\n[layer.weather]\ncoverage = 0.25\n")
+if(NOT OUTPUT STREQUAL EXPECTED)
+  message(FATAL_ERROR "the consumer said:\n${OUTPUT}")
+endif()
+if(EXISTS ${WORK}/moved/bin/welkin)
+  run(${WORK}/moved/bin/welkin check default)
+endif()
+file(REMOVE_RECURSE ${WORK})
