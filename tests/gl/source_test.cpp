@@ -22,8 +22,10 @@ TEST(Source, ExpandsEachFileOnceAndKeepsLines) {
   const ExpandedSource out =
       expandIncludes("a\n#include \"x\"\n#include \"y\"\nb\n", "main", files({{"x", "in x\n"}, {"y", "#include \"x\"\nin y\n"}}));
   EXPECT_EQ(out.files, (std::vector<std::string>{"main", "x", "y"}));
-  EXPECT_EQ(out.text,
-            "#line 1 0\na\n#line 1 1\nin x\n#line 3 0\n#line 1 2\n#line 2 2\nin y\n#line 4 0\nb\n");
+  EXPECT_EQ(out.text, "a\nin x\nin y\nb\n");
+  EXPECT_EQ(out.place(2), "x:1");
+  EXPECT_EQ(out.place(3), "y:2");
+  EXPECT_EQ(out.place(4), "main:4");
 }
 
 TEST(Source, NamesTheMissingFileAndWhoAskedForIt) {

@@ -98,15 +98,14 @@ void main() {
 }
 )";
 
-// Drivers write "0:12(5): error" or "ERROR: 0:12:"; puts the file's name for its number.
-std::string withFileNames(const std::string& log, const std::vector<std::string>& files) {
-  static const std::regex kPlace(R"((^|\s)(\d+):(\d+))");
+// Drivers write "0:12(5): error" or "ERROR: 0:12:"; puts file and line for the number of the expanded line.
+std::string withFileNames(const std::string& log, const ExpandedSource& source) {
+  static const std::regex kPlace(R"((^|\s)\d+:(\d+))");
   std::string out;
   auto last = log.cbegin();
   for (auto it = std::sregex_iterator(log.begin(), log.end(), kPlace); it != std::sregex_iterator(); ++it) {
-    const std::size_t file = std::stoul((*it)[2]);
     out.append(last, it->prefix().second);
-    out += (*it)[1].str() + (file < files.size() ? files[file] : (*it)[2].str()) + ":" + (*it)[3].str();
+    out += (*it)[1].str() + source.place(std::stoul((*it)[2]));
     last = it->suffix().first;
   }
   out.append(last, log.cend());
@@ -116,7 +115,8 @@ std::string withFileNames(const std::string& log, const std::vector<std::string>
 GLuint compile(const Api& gl, GLenum stage, const std::string& name, const std::string& header,
                const ExpandedSource& source) {
   const GLuint shader = gl.CreateShader(stage);
-  const char* texts[] = {header.c_str(), source.text.c_str()};
+  const std::string start = header + "#line 1\n";
+  const char* texts[] = {start.c_str(), source.text.c_str()};
   gl.ShaderSource(shader, 2, texts, nullptr);
   gl.CompileShader(shader);
   GLint ok = 0;
@@ -127,7 +127,7 @@ GLuint compile(const Api& gl, GLenum stage, const std::string& name, const std::
     gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
     gl.DeleteShader(shader);
-    throw Error(ErrorKind::failed, "shader " + name, "does not compile:\n" + withFileNames(log, source.files));
+    throw Error(ErrorKind::failed, "shader " + name, "does not compile:\n" + withFileNames(log, source));
   }
   return shader;
 }

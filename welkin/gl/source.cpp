@@ -11,7 +11,6 @@ namespace {
 void expand(std::string_view text, const std::string& name, const SourceResolver& resolver, ExpandedSource& out) {
   const std::size_t file = out.files.size();
   out.files.push_back(name);
-  out.text += "#line 1 " + std::to_string(file) + "\n";
   int line = 0;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
@@ -22,6 +21,7 @@ void expand(std::string_view text, const std::string& name, const SourceResolver
     if (!current.starts_with(kInclude)) {
       out.text += current;
       out.text += '\n';
+      out.lines.push_back({file, line});
       continue;
     }
     const std::string path(current.substr(kInclude.size(), current.rfind('"') - kInclude.size()));
@@ -31,11 +31,16 @@ void expand(std::string_view text, const std::string& name, const SourceResolver
         throw Error(ErrorKind::failed, name + ":" + std::to_string(line), "no shader source is called '" + path + "'");
       expand(included, path, resolver, out);
     }
-    out.text += "#line " + std::to_string(line + 1) + " " + std::to_string(file) + "\n";
   }
 }
 
 }  // namespace
+
+std::string ExpandedSource::place(std::size_t line) const {
+  if (line < 1 || line > lines.size()) return files.empty() ? "" : files.front();
+  const SourcePlace& from = lines[line - 1];
+  return files[from.file] + ":" + std::to_string(from.line);
+}
 
 ExpandedSource expandIncludes(const std::string& text, const std::string& name, const SourceResolver& resolver) {
   ExpandedSource out;

@@ -10,13 +10,21 @@ namespace welkin::gl {
 // Answers the text of a path such as "welkin/noise/worley.glsl", empty when there is none.
 using SourceResolver = std::function<std::string_view(std::string_view path)>;
 
+struct SourcePlace {
+  std::size_t file;  // index into ExpandedSource::files
+  int line;          // from 1
+};
 struct ExpandedSource {
   std::string text;
-  std::vector<std::string> files;  // files[i] is what the i in a driver's message "i:line" means
+  std::vector<std::string> files;
+  std::vector<SourcePlace> lines;  // where each line of the text comes from
+
+  // "path:line" of a line of the text, from 1.
+  std::string place(std::size_t line) const;
 };
 
-// Expands every `#include "path"` once (a second inclusion of a file is empty) and writes #line directives, so that
-// messages of the driver point into the right file. Throws Error (failed) for a path without text.
+// Expands every `#include "path"` once (a second inclusion of a file is empty). Lines are mapped back by `lines` rather
+// than by #line, whose file numbers Mesa forgets. Throws Error (failed) for a path without text.
 ExpandedSource expandIncludes(const std::string& text, const std::string& name, const SourceResolver& resolver);
 
 }  // namespace welkin::gl
