@@ -25,7 +25,7 @@ TEST(Command, HelpAndVersionGoToStdout) {
   const Outcome help = run("--help"), version = run("--version"), sub = run("render --help");
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.err, "");
-  for (const char* word : {"render", "presets", "fields", "check", "info", "doctor"})
+  for (const char* word : {"  render", "  presets", "  fields", "  check", "  info", "  doctor"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.rfind("welkin ", 0), 0u);
@@ -134,6 +134,23 @@ TEST(Command, PresetsFolderCanBeChosen) {
   EXPECT_EQ(none.out, "[]\n");
   EXPECT_NE(none.err, "");
   std::filesystem::remove_all(folder);
+}
+
+TEST(Command, InfoDescribesEveryLayerAndSheet) {
+  const std::string file = testing::TempDir() + "welkin_info.sky.toml";
+  writeFileAtomically(file, "format = 1\n[[sheet]]\nkind = \"cirrostratus\"\nheight = 8000\n");
+  const Outcome o = run("info --json " + file);
+  ASSERT_EQ(o.code, 0) << o.err;
+  const json report = json::parse(o.out);
+  EXPECT_TRUE(report["layers"].empty());
+  ASSERT_EQ(report["sheets"].size(), 1u);
+  EXPECT_EQ(report["sheets"][0]["genus"], "cirrostratus");
+  EXPECT_EQ(report["sheets"][0]["configured_height"], 8000);
+  std::filesystem::remove(file);
+  const json plain = json::parse(run("info --json").out);
+  ASSERT_EQ(plain["layers"].size(), 1u);
+  EXPECT_EQ(plain["layers"][0]["genus"], "cumulus");
+  EXPECT_EQ(run("info").out.rfind("layer 0  cumulus", 0), 0u);
 }
 
 TEST(Command, DoctorReportsTheDriver) {
