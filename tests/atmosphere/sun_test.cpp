@@ -40,8 +40,8 @@ TEST(Sun, CompassAndAxes) {
   const glm::vec3 north = sunDirection({.elevation = 0, .azimuth = 0});
   EXPECT_NEAR(north.y, 1, 1e-6);
   EXPECT_NEAR(sunDirection({.elevation = static_cast<float>(90 * kDegree)}).z, 1, 1e-6);
-  Sun morning{.mode = SunMode::place, .date = "2026-03-20", .time = "06:30", .utcOffset = 0, .latitude = 0.8f,
-              .longitude = 0};
+  Sun morning{
+      .mode = SunMode::place, .date = "2026-03-20", .time = "06:30", .utcOffset = 0, .latitude = 0.8f, .longitude = 0};
   EXPECT_GT(sunDirection(morning).x, 0.9f) << "the sun rises in the east";
   morning.time = "12:00";
   EXPECT_LT(sunDirection(morning).y, -0.6f) << "and stands in the south at noon";

@@ -33,17 +33,22 @@ void expectPhase(const char* name, const Phase& f, double mean, double tolerance
 float cosine(double c) { return static_cast<float>(c); }
 
 TEST(Phase, IntegratesToOneWithItsMeanCosine) {
-  expectPhase("isotropic", [](double) { return static_cast<double>(law::phaseIsotropic()); }, 0.0);
-  expectPhase("Rayleigh", [](double c) { return law::phaseRayleigh(cosine(c)); }, 0.0);
+  expectPhase(
+      "isotropic", [](double) { return static_cast<double>(law::phaseIsotropic()); }, 0.0);
+  expectPhase(
+      "Rayleigh", [](double c) { return law::phaseRayleigh(cosine(c)); }, 0.0);
   for (const float g : {-0.5f, 0.0f, 0.5f, 0.85f, 0.95f}) {
-    expectPhase("Henyey-Greenstein", [g](double c) { return law::phaseHenyeyGreenstein(cosine(c), g); }, g);
+    expectPhase(
+        "Henyey-Greenstein", [g](double c) { return law::phaseHenyeyGreenstein(cosine(c), g); }, g);
     for (const float alpha : {0.0f, 1.0f, 20.0f}) {
       const double mean = g * (1 + alpha * (3 + 2 * g * g) / 5) / (1 + alpha * (1 + 2 * g * g) / 3);
-      expectPhase("Draine", [=](double c) { return law::phaseDraine(cosine(c), g, alpha); }, mean);
+      expectPhase(
+          "Draine", [=](double c) { return law::phaseDraine(cosine(c), g, alpha); }, mean);
     }
   }
-  expectPhase("two lobes", [](double c) { return law::phaseDualHenyeyGreenstein(cosine(c), 0.8f, -0.2f, 0.25f); },
-              0.75 * 0.8 - 0.25 * 0.2);
+  expectPhase(
+      "two lobes", [](double c) { return law::phaseDualHenyeyGreenstein(cosine(c), 0.8f, -0.2f, 0.25f); },
+      0.75 * 0.8 - 0.25 * 0.2);
   EXPECT_NEAR(integrate([](double c) { return law::phaseSchlick(cosine(c), law::schlickFromAsymmetry(0.85f)); }, 0),
               1.0, 2e-5);
 }
@@ -52,7 +57,8 @@ TEST(Phase, IntegratesToOneWithItsMeanCosine) {
 TEST(Phase, MieFitIntegratesToOne) {
   for (const double d : {5.0, 10.0, 20.0, 50.0}) {
     const law::MiePhase mie = computeMiePhase(d);
-    expectPhase("Mie", [mie](double c) { return law::phaseMie(cosine(c), mie); }, meanCosine(mie), 1e-3);
+    expectPhase(
+        "Mie", [mie](double c) { return law::phaseMie(cosine(c), mie); }, meanCosine(mie), 1e-3);
   }
 }
 
@@ -93,8 +99,8 @@ TEST(Phase, KnownRelations) {
   for (const float c : {-0.9f, 0.1f, 0.99f}) {
     EXPECT_NEAR(law::phaseDraine(c, 0.0f, 1.0f), law::phaseRayleigh(c), 1e-7);
     const float g = 0.8f;
-    const double cornetteShanks = 3 / (8 * std::numbers::pi) * (1 - g * g) * (1 + c * c) /
-                                  ((2 + g * g) * std::pow(1 + g * g - 2 * g * c, 1.5));
+    const double cornetteShanks =
+        3 / (8 * std::numbers::pi) * (1 - g * g) * (1 + c * c) / ((2 + g * g) * std::pow(1 + g * g - 2 * g * c, 1.5));
     EXPECT_NEAR(law::phaseCornetteShanks(c, g), cornetteShanks, 2e-5 * cornetteShanks);
   }
   EXPECT_GT(law::phaseSchlick(1.0f, 0.5f), law::phaseSchlick(-1.0f, 0.5f)) << "forward is at +1";

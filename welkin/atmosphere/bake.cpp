@@ -70,8 +70,7 @@ static void skyViewRow(const SkyParams& scalar, const AirTables& tables, int y, 
   fillRow(y, out, [&](const Vec2& uv) { return law::skyViewTexel(t, m, p.air, p.preetham, p.gradient, uv); });
 }
 
-static void aerialRow(const SkyParams& scalar, const AirTables& tables, int y, Table& inscatter,
-                      Table& transmittance) {
+static void aerialRow(const SkyParams& scalar, const AirTables& tables, int y, Table& inscatter, Table& transmittance) {
   const auto p = std::bit_cast<Params>(scalar);
   const TextureView t = tables.transmittance.view(), m = tables.multiScattering.view();
   const auto width = static_cast<std::size_t>(inscatter.width);
@@ -80,10 +79,8 @@ static void aerialRow(const SkyParams& scalar, const AirTables& tables, int y, T
     const Vec2 uv((lanes(x) + 0.5f) / static_cast<float>(width), v);
     Vec3 radiance(0.0f), through(1.0f);
     for (int z = 0; z < inscatter.depth; ++z) {
-      if (z > 0)
-        law::aerialTexel(t, m, p.air, uv, law::aerialDistance(p.air, z - 1), law::aerialDistance(p.air, z), radiance,
-                         through);
-      store(radiance, 1.0f, texel(inscatter, x, y, z), 4);
+      law::aerialTexel(t, m, p.air, uv, z, radiance, through);
+      store(law::aerialStored(p.air, z, radiance), 1.0f, texel(inscatter, x, y, z), 4);
       store(through, 1.0f, texel(transmittance, x, y, z), 4);
     }
   }

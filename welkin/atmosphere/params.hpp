@@ -19,11 +19,10 @@ inline float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.
 // Everything that the laws of the air need. `sunDirection` is a unit vector, `cameraAltitude` in m above the ground
 // (taken as at least 1 m).
 law::AtmosphereParams makeAtmosphereParams(const Atmosphere& atmosphere, const glm::vec3& sunDirection,
-                                           double cameraAltitude,
-                                           const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
+                                           double cameraAltitude, const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
 
-// Preetham's sky of this turbidity (1.8 to 10). Below the horizon, where the model ends, the sun's sky is that of sunset
-// dimmed by 2^(1.1 elevation in degrees), as twilight is.
+// Preetham's sky of this turbidity (1.8 to 10). Below the horizon, where the model ends, the sun's sky is that of
+// sunset dimmed by 2^(1.1 elevation in degrees), as twilight is.
 law::PreethamParams makePreethamParams(double turbidity, const glm::vec3& sunDirection);
 
 law::GradientParams makeGradientParams(const Atmosphere& atmosphere);

@@ -54,7 +54,7 @@ struct Atmosphere {
   float mie = 1.0f;
   float mieG = 0.8f;
   float ozone = 1.0f;
-  float haze = 0.0f;         // 1/m
+  float haze = 0.0f;          // 1/m
   float hazeHeight = 300.0f;  // m
   float turbidity = 3.0f;
   glm::vec3 gradientHorizon{5.5f, 6.5f, 8.0f};  // kcd/m^2
@@ -66,8 +66,9 @@ template <>
 struct FieldTable<Atmosphere> {
   static auto make() {
     return fieldRows(
-        field<&Atmosphere::model>("model", "what the sky is painted with; the light of the sun and the air in front of "
-                                           "clouds are physical with every model"),
+        field<&Atmosphere::model>("model",
+                                  "what the sky is painted with; the light of the sun and the air in front of "
+                                  "clouds are physical with every model"),
         field<&Atmosphere::rayleigh>("rayleigh", {0, 20}, {0, 4}, "amount of air molecules, 1 is Earth"),
         field<&Atmosphere::mie>("mie", {0, 100}, {0, 12}, "amount of aerosol: 1 very clear, 4 usual, 12 hazy"),
         field<&Atmosphere::mieG>("mie_g", {-0.95, 0.95}, {0.5, 0.9}, "mean cosine of scattering by aerosol"),

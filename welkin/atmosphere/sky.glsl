@@ -10,6 +10,7 @@ const float kAerialWidth = 32.0f;
 const float kAerialHeight = 64.0f;
 const float kAerialDepth = 32.0f;
 const float kAerialPower = 2.5f;
+const float kAerialUnit = 2000.0f;  // m: in-scatter is stored for a path of this length, which hardly varies with depth
 const int kAerialSteps = 4;
 const float kHalfPi = 1.57079633f;
 
@@ -100,26 +101,32 @@ FN Vec2 headingElevationFromAerialUv(IN(AtmosphereParams) air, IN(Vec2) uv) {
   Real range = select(s > 0.0f, Real(kHalfPi - air.horizonElevation), Real(kHalfPi + air.horizonElevation));
   return Vec2(unitFromTexel(uv.x, kAerialWidth), air.horizonElevation + s * abs(s) * range);
 }
-// Depth coordinate of a distance, and the distance of slice 0, 1, ...
+// Depth coordinate of a distance, and the distance of slice 0, 1, ... (the first stands for none at all).
 FN Real aerialDepth(IN(AtmosphereParams) air, IN(Real) distance) {
   return texelFromUnit(pow(saturate(distance / air.aerialRange), Real(1.0f / kAerialPower)), kAerialDepth);
 }
 FN float aerialDistance(IN(AtmosphereParams) air, int slice) {
-  return air.aerialRange * pow(toReal(slice) / (kAerialDepth - 1.0f), kAerialPower);
+  return max(air.aerialRange * pow(toReal(slice) / (kAerialDepth - 1.0f), kAerialPower), 1.0f);
 }
 
-// Carries one column of the aerial tables from distance `begin` to `end`: radiance (times radianceScale) and transmittance.
+// Carries one column of the aerial tables on to `slice`: radiance from the camera on (times radianceScale) and
+// transmittance. What is stored is the transmittance and aerialStored(radiance).
 FN void aerialTexel(IN(Sampler2) transmittance, IN(Sampler2) multiScattering, IN(AtmosphereParams) air, IN(Vec2) uv,
-                    float begin, float end, INOUT(Vec3) inscatter, INOUT(Vec3) through) {
+                    int slice, INOUT(Vec3) inscatter, INOUT(Vec3) through) {
   Vec2 view = headingElevationFromAerialUv(air, uv);
+  float begin = slice > 0 ? aerialDistance(air, slice - 1) : 0.0f;
   Real h = air.cameraAltitude;
   Real cosZenith = sin(view.y);
   Real entry = distanceToAir(air, h, cosZenith);
   Real exit = max(distanceToTop(air, h, cosZenith), entry);
   Vec3 radiance = Vec3(0.0f);
   addInscatter(transmittance, multiScattering, air, h, cosZenith, air.sunDirection.z, cosSunFrom(air, view.x, view.y),
-               clamp(Real(begin), entry, exit), clamp(Real(end), entry, exit), kAerialSteps, radiance, through);
+               clamp(Real(begin), entry, exit), clamp(Real(aerialDistance(air, slice)), entry, exit), kAerialSteps,
+               radiance, through);
   inscatter += radiance * xyz(air.sunIrradiance) * air.radianceScale;
+}
+FN Vec3 aerialStored(IN(AtmosphereParams) air, int slice, IN(Vec3) inscatter) {
+  return inscatter * (kAerialUnit / aerialDistance(air, slice));
 }
 
 // The air between the camera and a point at `distance`: what it adds (kcd/m^2) and what it lets through.
@@ -127,7 +134,8 @@ FN void lookupAerial(IN(Sampler3) aerialInscatter, IN(Sampler3) aerialTransmitta
                      IN(Vec3) direction, IN(Real) distance, OUT(Vec3) inscatter, OUT(Vec3) through) {
   Vec2 uv = aerialUv(air, direction);
   Vec3 uvw = Vec3(uv.x, uv.y, aerialDepth(air, distance));
-  inscatter = xyz(sample3(aerialInscatter, uvw)) * (1.0f / air.radianceScale);
+  Real units = clamp(distance, 0.0f, air.aerialRange) * (1.0f / (kAerialUnit * air.radianceScale));
+  inscatter = xyz(sample3(aerialInscatter, uvw)) * units;
   through = xyz(sample3(aerialTransmittance, uvw));
 }
 

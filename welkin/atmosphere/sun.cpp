@@ -58,8 +58,8 @@ double positiveAngle(double x) {
   return r < 0 ? r + 2 * kPi : r;
 }
 
-// Terrestrial time less universal time in days: 69 s, right to a few seconds from 2000 to 2050 and to a minute from 1900
-// to 2100; the sun moves 0.0007 deg a minute.
+// Terrestrial time less universal time in days: 69 s, right to a few seconds from 2000 to 2050 and to a minute from
+// 1900 to 2100; the sun moves 0.0007 deg a minute.
 constexpr double kDeltaT = 69.0 / 86400.0;
 
 bool isLeap(int year) { return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0); }
@@ -81,17 +81,19 @@ glm::dvec3 directionFromAngles(double azimuth, double elevation) {
 SolarPosition solarPosition(double daysSince2000, double latitude, double longitude) {
   const double tau = (daysSince2000 + kDeltaT) / 365250.0, century = 10 * tau;
   const double earth = sumTerms(kL0, tau) + tau * sumTerms(kL1, tau) + tau * tau * sumTerms(kL2, tau);
-  const double anomaly = (357.52911 + 35999.05029 * century) * kDegree;  // Meeus eq. 25.3
+  const double anomaly = (357.52911 + 35999.05029 * century) * kDegree;                             // Meeus eq. 25.3
   const double distance = 1.00014 - 0.01671 * std::cos(anomaly) - 0.00014 * std::cos(2 * anomaly);  // au
 
   const double node = (125.04452 - 1934.136261 * century) * kDegree;  // Meeus ch. 22, the four largest terms
   const double sunLongitude = (280.4665 + 36000.7698 * century) * kDegree;
   const double moonLongitude = (218.3165 + 481267.8813 * century) * kDegree;
   const double nutation = (-17.20 * std::sin(node) - 1.32 * std::sin(2 * sunLongitude) -
-                           0.23 * std::sin(2 * moonLongitude) + 0.21 * std::sin(2 * node)) * kArcsecond;
-  const double obliquity = (23.4392911 - 0.0130042 * century) * kDegree +
-                           (9.20 * std::cos(node) + 0.57 * std::cos(2 * sunLongitude) +
-                            0.10 * std::cos(2 * moonLongitude) - 0.09 * std::cos(2 * node)) * kArcsecond;
+                           0.23 * std::sin(2 * moonLongitude) + 0.21 * std::sin(2 * node)) *
+                          kArcsecond;
+  const double obliquity =
+      (23.4392911 - 0.0130042 * century) * kDegree + (9.20 * std::cos(node) + 0.57 * std::cos(2 * sunLongitude) +
+                                                      0.10 * std::cos(2 * moonLongitude) - 0.09 * std::cos(2 * node)) *
+                                                         kArcsecond;
 
   const double lambda = earth + kPi + nutation - (20.4898 / distance) * kArcsecond;
   const double ascension = std::atan2(std::sin(lambda) * std::cos(obliquity), std::cos(lambda));
@@ -102,11 +104,11 @@ SolarPosition solarPosition(double daysSince2000, double latitude, double longit
       (280.46061837 + 360.98564736629 * daysSince2000 + 0.000387933 * t * t) * kDegree + nutation * std::cos(obliquity);
   const double hourAngle = sidereal + longitude - ascension;
 
-  const double sinElevation = std::sin(latitude) * std::sin(declination) +
-                              std::cos(latitude) * std::cos(declination) * std::cos(hourAngle);
+  const double sinElevation =
+      std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(hourAngle);
   const double geocentric = std::asin(std::fmin(1.0, std::fmax(-1.0, sinElevation)));
-  const double fromSouth = std::atan2(std::sin(hourAngle), std::cos(hourAngle) * std::sin(latitude) -
-                                                               std::tan(declination) * std::cos(latitude));
+  const double fromSouth = std::atan2(
+      std::sin(hourAngle), std::cos(hourAngle) * std::sin(latitude) - std::tan(declination) * std::cos(latitude));
   const double parallax = (8.794 / distance) * kArcsecond * std::cos(geocentric);
   return {positiveAngle(fromSouth + kPi), geocentric - parallax};
 }
@@ -120,8 +122,7 @@ double daysFromDateTime(const std::string& date, const std::string& time) {
   if (month < 1 || month > 12) refuse("date is \"" + date + "\", but there is no month " + std::to_string(month));
   constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   const int last = kDays[month - 1] + (month == 2 && isLeap(year) ? 1 : 0);
-  if (day < 1 || day > last)
-    refuse("date is \"" + date + "\", but that month has days 1 to " + std::to_string(last));
+  if (day < 1 || day > last) refuse("date is \"" + date + "\", but that month has days 1 to " + std::to_string(last));
 
   int hour = 0, minute = 0;
   double second = 0;

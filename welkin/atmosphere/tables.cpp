@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "welkin/atmosphere/bake.hpp"
@@ -90,8 +91,7 @@ AirTables bakeAir(const law::AtmosphereParams& air) {
               Table(static_cast<int>(law::kMultiScatteringSize), static_cast<int>(law::kMultiScatteringSize), 1)};
   forRows(t.transmittance.height, [&](int y) { bake::transmittanceRow(air, y, t.transmittance); });
   const TextureView transmittance = t.transmittance.view();
-  forRows(t.multiScattering.height,
-          [&](int y) { bake::multiScatteringRow(air, transmittance, y, t.multiScattering); });
+  forRows(t.multiScattering.height, [&](int y) { bake::multiScatteringRow(air, transmittance, y, t.multiScattering); });
   return t;
 }
 
@@ -119,7 +119,7 @@ SkyLight computeSkyLight(const SkyParams& params, const AirTables& air, const Sk
   std::vector<double> solidAngles(kCount);
   for (int i = 0; i < kElevations; ++i)
     for (int j = 0; j < kHeadings; ++j) {
-      const auto k = static_cast<std::size_t>(i * kHeadings + j);
+      const std::size_t k = static_cast<std::size_t>(i) * kHeadings + static_cast<std::size_t>(j);
       const double elevation = 0.5 * kPi * (i + 0.5) / kElevations, t = (j + 0.5) / kHeadings;
       const glm::vec3 direction = directionFrom(params.air, kPi * t * t, elevation, 1.0);
       elevations[k] = static_cast<float>(elevation);
@@ -142,10 +142,9 @@ SkyLight computeSkyLight(const SkyParams& params, const AirTables& air, const Sk
   SkyLight light;
   light.skyIrradiance = glm::vec3(flux);
   light.meanRadiance = glm::vec3(mean / whole);
-  light.sunIrradiance =
-      glm::vec3(params.air.sunIrradiance) * law::lookupTransmittanceToSun(air.transmittance.view(), params.air,
-                                                                          params.air.cameraAltitude,
-                                                                          params.air.sunDirection.z);
+  light.sunIrradiance = glm::vec3(params.air.sunIrradiance) *
+                        law::lookupTransmittanceToSun(air.transmittance.view(), params.air, params.air.cameraAltitude,
+                                                      params.air.sunDirection.z);
   return light;
 }
 
@@ -160,8 +159,8 @@ SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const glm::vec3& sunDirection
   return sky;
 }
 
-SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const Sun& sun, double cameraAltitude,
-                     const glm::vec3& groundAlbedo, const SkyModel* user) {
+SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const Sun& sun, double cameraAltitude, const glm::vec3& groundAlbedo,
+                     const SkyModel* user) {
   return bakeSky(atmosphere, ::welkin::sunDirection(sun), cameraAltitude, groundAlbedo, user);
 }
 

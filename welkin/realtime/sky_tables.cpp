@@ -1,8 +1,9 @@
 #include "welkin/realtime/sky_tables.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <string>
 
 #include "welkin/realtime/shader_sources.hpp"
@@ -20,7 +21,8 @@ gl::Program pass(const gl::Api& gl, const std::string& name) {
   return program;
 }
 
-gl::Texture plane(const gl::Api& gl, const gl::Format& format, float width, float height, const void* texels = nullptr) {
+gl::Texture plane(const gl::Api& gl, const gl::Format& format, float width, float height,
+                  const void* texels = nullptr) {
   return gl::Texture(gl, gl::Texture::Kind::plane, format, static_cast<int>(width), static_cast<int>(height), 0,
                      gl::Filter::linear, gl::Addressing::clamp, texels);
 }
@@ -47,7 +49,8 @@ law::AtmosphereParams airOnly(law::AtmosphereParams air) {
 
 template <class T>
 bool sameBytes(const T& a, const T& b) {
-  return std::memcmp(&a, &b, sizeof(T)) == 0;
+  using Words = std::array<std::uint32_t, sizeof(T) / 4>;
+  return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
 }
 
 }  // namespace
@@ -157,9 +160,8 @@ void SkyTables::fillAerial() {
 
 std::size_t SkyTables::bytes() const {
   std::size_t total = 0;
-  for (const gl::Texture* t :
-       {&transmittance_, &multiScattering_, &skyView_, &aerialInscatter_, &aerialTransmittance_, &inscatterSum_[0],
-        &inscatterSum_[1], &throughSum_[0], &throughSum_[1]})
+  for (const gl::Texture* t : {&transmittance_, &multiScattering_, &skyView_, &aerialInscatter_, &aerialTransmittance_,
+                               &inscatterSum_[0], &inscatterSum_[1], &throughSum_[0], &throughSum_[1]})
     total += t->bytes();
   return total;
 }

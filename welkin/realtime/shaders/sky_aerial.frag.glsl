@@ -12,9 +12,9 @@ void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     inscatter = texelFetch(uInscatterBefore, p, 0).xyz;
     through = texelFetch(uThroughBefore, p, 0).xyz;
-    aerialTexel(uTransmittance, uMultiScattering, uAir, vUv, aerialDistance(uAir, uSlice - 1),
-                aerialDistance(uAir, uSlice), inscatter, through);
   }
-  oInscatter = oInscatterSum = vec4(inscatter, 1.0);
+  aerialTexel(uTransmittance, uMultiScattering, uAir, vUv, uSlice, inscatter, through);
+  oInscatter = vec4(aerialStored(uAir, uSlice, inscatter), 1.0);
+  oInscatterSum = vec4(inscatter, 1.0);
   oThrough = oThroughSum = vec4(through, 1.0);
 }
