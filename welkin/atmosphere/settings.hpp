@@ -48,8 +48,18 @@ struct ChoiceNames<SkyKind> {
   static constexpr std::array<std::string_view, 3> names{"physical", "preetham", "gradient"};
 };
 
+// What the three channels of the air's coefficients stand for. rec709: what the spectra of scattering and absorption do
+// to sunlight seen through the Rec.709 primaries. hillaire: the published values at 680, 550 and 440 nm, taken for
+// primaries as they are; skies come out more saturated and twilight purple.
+enum class AirCoefficients { rec709, hillaire };
+template <>
+struct ChoiceNames<AirCoefficients> {
+  static constexpr std::array<std::string_view, 2> names{"rec709", "hillaire"};
+};
+
 struct Atmosphere {
   SkyKind model = SkyKind::physical;
+  AirCoefficients coefficients = AirCoefficients::rec709;
   float rayleigh = 1.0f;
   float mie = 1.0f;
   float mieG = 0.8f;
@@ -57,10 +67,10 @@ struct Atmosphere {
   float haze = 0.0f;          // 1/m
   float hazeHeight = 300.0f;  // m
   float turbidity = 3.0f;
-  glm::vec3 gradientHorizon{5.5f, 6.5f, 8.0f};  // kcd/m^2
-  glm::vec3 gradientZenith{0.9f, 2.0f, 5.0f};   // kcd/m^2
-  glm::vec3 gradientGlow{30.0f, 26.0f, 20.0f};  // kcd/m^2
-  float gradientGlowExponent = 120.0f;
+  glm::vec3 gradientHorizon{4.0f, 5.5f, 8.0f};  // kcd/m^2
+  glm::vec3 gradientZenith{0.5f, 1.4f, 4.5f};   // kcd/m^2
+  glm::vec3 gradientGlow{12.0f, 10.5f, 8.5f};   // kcd/m^2
+  float gradientGlowExponent = 60.0f;
 };
 template <>
 struct FieldTable<Atmosphere> {
@@ -69,6 +79,9 @@ struct FieldTable<Atmosphere> {
         field<&Atmosphere::model>("model",
                                   "what the sky is painted with; the light of the sun and the air in front of "
                                   "clouds are physical with every model"),
+        field<&Atmosphere::coefficients>("coefficients",
+                                         "rec709 is fitted to spectra seen through the picture's primaries; hillaire "
+                                         "takes three wavelengths as published: twilight turns purple"),
         field<&Atmosphere::rayleigh>("rayleigh", {0, 20}, {0, 4}, "amount of air molecules, 1 is Earth"),
         field<&Atmosphere::mie>("mie", {0, 100}, {0, 12}, "amount of aerosol: 1 very clear, 4 usual, 12 hazy"),
         field<&Atmosphere::mieG>("mie_g", {-0.95, 0.95}, {0.5, 0.9}, "mean cosine of scattering by aerosol"),
