@@ -42,7 +42,7 @@ gl::Texture volume(const gl::Api& gl) {
 law::AtmosphereParams airOnly(law::AtmosphereParams air) {
   air.sunDirection = glm::vec4(0, 0, 1, air.sunDirection.w);
   air.sunHeading = glm::vec4(0);
-  air.cameraAltitude = air.horizonElevation = air.radianceScale = 0;
+  air.cameraAltitude = air.horizonElevation = air.radianceScale = air.aerialRange = 0;
   air.skyKind = 0;
   return air;
 }
