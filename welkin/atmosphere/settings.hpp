@@ -19,7 +19,7 @@ struct ChoiceNames<SunMode> {
 struct Sun {
   SunMode mode = SunMode::angles;
   float elevation = 0.7f;           // rad
-  float azimuth = 3.9f;             // rad, compass
+  float azimuth = 1.92f;            // rad, compass
   std::string date = "2026-06-21";  // year-month-day, Gregorian
   std::string time = "12:00:00";    // civil time
   float utcOffset = 0.0f;           // s, civil time less universal time

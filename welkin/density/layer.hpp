@@ -39,10 +39,10 @@ struct ChoiceNames<Population> {
 // generator that turns them into what the shape needs.
 struct WeatherSettings {
   Population population = Population::clusters;
-  float coverage = 0.45f;
+  float coverage = 0.42f;
   float precipitation = 0.0f;
   float type = 0.5f;
-  float cellSize = 2600.0f;       // m
+  float cellSize = 3800.0f;       // m
   float sizeExponent = 2.2f;      // p(r) ~ r^-sizeExponent
   float clusterSize = 10000.0f;   // m
   float clustering = 0.9f;
@@ -95,14 +95,14 @@ struct ProfileSettings {
   float lengthScale = 900.0f;      // m
   float lengthFraction = 0.9f;
   float minLength = 300.0f;        // m
-  float erosion = 0.8f;
+  float erosion = 0.65f;
   float baseErosion = 0.9f;
-  float baseCut = 0.3f;
-  float noiseTile = 2600.0f;       // m
+  float baseCut = 0.25f;
+  float noiseTile = 3000.0f;       // m
   float billowMix = 0.75f;
   float warp = 400.0f;             // m
-  float detail = 220.0f;           // m
-  float detailTile = 600.0f;       // m
+  float detail = 160.0f;           // m
+  float detailTile = 700.0f;       // m
   float fineDetail = 60.0f;        // m
   float fineTile = 130.0f;         // m
   float ramp = 30.0f;              // m
@@ -184,7 +184,7 @@ struct CloudLayer {
   LayerShape shape = LayerShape::profile;
   Genus genus = Genus::cumulus;
   float base = 1200.0f;            // m
-  float thickness = 1400.0f;       // m
+  float thickness = 1700.0f;       // m
   float extinction = 0.1f;         // 1/m
   float albedo = 1.0f;
   float dropletDiameter = 12.0f;   // um

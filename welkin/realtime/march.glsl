@@ -14,7 +14,6 @@ struct MarchResult {
 };
 
 const float kLightFirst = 15.0f;   // m, first step toward the sun
-const float kLightRatio = 1.6f;    // each step against the last
 const float kAmbientFirst = 60.0f;
 const float kAmbientRatio = 2.5f;
 
@@ -28,8 +27,9 @@ FN Vec3 coneKernel(IN(Real) k) {
 }
 
 // Marches the ray from the anchor along `dir` to `limit` (m). `sunLow` and `sunHigh`: sunlight (klx) at the bottom and
-// top of the clouds. `jitter`: two numbers in [0, 1) that place the steps.
-FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sunHigh, IN(Vec2) jitter,
+// top of the clouds. `jitter`: three numbers in [0, 1) that place the steps along the ray, those of its light,
+// and those of the ground's light.
+FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sunHigh, IN(Vec3) jitter,
                      IN(MarchParams) m, IN(Sky) sky) {
   Vec3 sun = Vec3(m.sun.x, m.sun.y, m.sun.z);
   Vec3 up = Vec3(m.planet.up.x, m.planet.up.y, m.planet.up.z);
@@ -100,7 +100,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     Vec3 offset = sun * (lightAt + lightStep * jitter.y);
     if (m.nubis != 0) offset = sun * lightAt + coneKernel(k) * (lightStep * 0.5f * k);
     offset = select(upward, up * (lightAt + lightStep * jitter.y), offset);
-    Vec3 ground = sun * ((m.bottom + shell * (k + jitter.y) / float(m.groundSteps)) / slant);
+    Vec3 ground = sun * ((m.bottom + shell * (k + jitter.z) / float(m.groundSteps)) / slant);
     Vec3 d = dir * select(fromGround, tGround, t);
     d = d + select(fromGround, ground, select(along, Vec3(0.0f), offset));
     Vec3 q = cloudSpace(d, m.planet);
@@ -150,7 +150,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     if (m.nubis != 0) lightAt = select(either(light, both(toSun, k < 4.5f)), first * (k + 1.0f),
                                        select(toSun, first * 18.0f, lightAt));
     lightStep = select(light, first, lightStep);
-    if (m.nubis == 0) lightStep = select(both(toSun, invert(sunDone)), lightStep * kLightRatio, lightStep);
+    if (m.nubis == 0) lightStep = select(both(toSun, invert(sunDone)), lightStep * m.lightRatio, lightStep);
     lightStep = select(both(upward, invert(upDone)), lightStep * kAmbientRatio, lightStep);
     mode = select(light, Real(1.0f), mode);
     Mask startUp = both(sunDone, toMask(m.ambientSteps > 0));

@@ -1,6 +1,7 @@
 #include "welkin/realtime/march_params.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace welkin::realtime {
 
@@ -12,6 +13,18 @@ constexpr int kZenithSteps = 64, kHorizonSteps = 128;
 constexpr float kStepPerMetre = 0.004f, kMinStep = 12.0f, kMaxStep = 250.0f;  // look: the coarsest without hatching
 constexpr float kFar = 150000.0f;                                             // m, where clouds have faded into the air
 constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets; a test counts
+
+// Ratio of a geometric series of `steps` terms from kLightFirst (march.glsl) that reaches as far as 9 steps of ratio
+// 1.6, which large clouds need (1700 m).
+float lightRatio(int steps) {
+  constexpr double kFirst = 15.0, kReach = 1690.0;
+  double low = 1.0001, high = 200.0;
+  for (int i = 0; i < 60; ++i) {
+    const double ratio = 0.5 * (low + high);
+    (kFirst * (std::pow(ratio, steps) - 1.0) / (ratio - 1.0) < kReach ? low : high) = ratio;
+  }
+  return static_cast<float>(low);
+}
 
 }  // namespace
 
@@ -29,7 +42,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.groundAlbedo = glm::vec4(scene.ground.albedo, drawGround ? 1.0f : 0.0f);
   m.bottom = 1e9f;
   m.top = -1e9f;
-  m.earlyExit = q.earlyExit ? 0.004f : -1.0f;
+  m.earlyExit = q.earlyExit ? 0.01f : -1.0f;
   float albedo = 1.0f;
   for (const Layer& layer : scene.layers) {
     const Shell shell = shellOf(layer);
@@ -57,7 +70,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.ambientSteps = q.ambientSteps;
   m.refine = q.refine ? 1 : 0;
   m.maxTurns = kMaxTurns;
-  m.groundSteps = 12;
+  m.groundSteps = 16;
+  m.lightRatio = lightRatio(q.lightSteps);
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;
     m.lightSteps = 6;

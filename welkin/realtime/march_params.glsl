@@ -14,4 +14,5 @@ struct MarchParams {
   int octaves, lightSteps, ambientSteps, refine;
   int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
   int maxTurns, groundSteps, spare0, spare1;
+  float lightRatio, spare2, spare3, spare4;  // each step toward the sun against the last
 };

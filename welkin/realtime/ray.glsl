@@ -9,7 +9,7 @@ FN Vec3 sheetSource(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Vec3) su
          xyz(m.ambientGround) * 0.15f;
 }
 
-FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec2) jitter, IN(MarchParams) m, IN(AtmosphereParams) air,
+FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams) m, IN(AtmosphereParams) air,
                   IN(Sampler2) transmittance, IN(Sampler3) aerialInscatter, IN(Sampler3) aerialTransmittance,
                   IN(Sky) sky, OUT(Vec4) colour, OUT(Real) depth, OUT(Real) samples) {
   Vec3 sun = Vec3(m.sun.x, m.sun.y, m.sun.z);

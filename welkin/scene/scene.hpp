@@ -67,7 +67,7 @@ struct ChoiceNames<ExposureMode> {
 // From light to a picture.
 struct Film {
   ExposureMode exposure = ExposureMode::manual;
-  float ev = 14.6f;           // EV100
+  float ev = 14.1f;           // EV100
   float compensation = 0.0f;  // stops, in both modes
   ToneCurve tone = ToneCurve::agx;
   float whiteBalance = 6504.0f;  // K
@@ -92,7 +92,7 @@ inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4;
 struct Scene {
   std::string title;
   float time = 0.0f;  // s
-  int seed = 0;
+  int seed = 1;
   std::vector<Layer> layers{Layer{}};
   std::vector<Sheet> sheets;
   Sun sun;

@@ -66,16 +66,24 @@ float gradientNoise(vec2 pixel, float frame) {
   return fract(fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) + 0.61803399 * frame);
 }
 
+// White noise for the lighting: what is left after averaging looks like grain, where a regular pattern would look like
+// hatching.
+float whiteNoise(vec2 pixel, float frame) {
+  uint h = hashCell2(int(pixel.x), int(pixel.y), 9u);
+  return fract(unitFromHash(h) + 0.61803399 * frame);
+}
+
 void main() {
   vec2 pixel = floor(gl_FragCoord.xy) * uTiming.w + uOffset.xy;
   vec2 uv = (pixel + 0.5 + uOffset.zw) * uSize.zw;
   vec3 ray = rayAt(uv * 2.0 - 1.0);
   float limit = hostDistance(uHostDepth, (pixel + 0.5) * uSize.zw, ray);
-  vec2 jitter = vec2(0.5);
+  // The ground's shadows take the same place in all pixels: they have edges of their own, and grain would spoil them.
+  vec3 jitter = vec3(0.5);
   if (uOptions.y > 0.5)
-    jitter = vec2(gradientNoise(pixel, uTiming.x), gradientNoise(pixel.yx + 17.0, uTiming.x * 1.7 + 3.0));
+    jitter = vec3(gradientNoise(pixel, uTiming.x), whiteNoise(pixel, uTiming.x), fract(0.5 + 0.61803399 * uTiming.x));
   Sky sky;
-  sky.dither = gradientNoise(pixel + 5.0, uTiming.x);
+  sky.dither = whiteNoise(pixel + 4096.0, uTiming.x);
   vec4 colour;
   float depth, samples;
   renderRay(normalize(ray), limit, jitter, uMarch, uAir, uTransmittance, uAerialInscatter, uAerialTransmittance, sky,
