@@ -24,8 +24,11 @@ std::string pathOf(const Section& section, const Field& field) {
   return table.empty() ? field.name : table + "." + field.name;
 }
 
-Json jsonOf(const Range& range) {
-  const auto bound = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
+Json jsonOf(const Field& f, const Range& range) {
+  const auto bound = [&](double v) {
+    if (!std::isfinite(v)) return Json(nullptr);
+    return f.kind == FieldKind::integer ? Json(static_cast<std::int64_t>(v)) : Json(v);
+  };
   return {bound(range.low), bound(range.high)};
 }
 
@@ -42,8 +45,8 @@ void printJson(const std::vector<Section>& sections) {
       const Json text = Json::parse(formatValue(f, f.defaultValue), nullptr, false);
       row["default"] = text;
       if (hasRange(f)) {
-        row["range"] = jsonOf(f.hard);
-        row["slider"] = jsonOf(f.soft);
+        row["range"] = jsonOf(f, f.hard);
+        row["slider"] = jsonOf(f, f.soft);
       }
       if (f.kind == FieldKind::choice) row["choices"] = f.choices;
       if (!f.allowed.empty()) row["choices"] = f.allowed;

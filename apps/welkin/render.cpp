@@ -59,7 +59,8 @@ void addRender(CLI::App& app) {
       ->type_name("FILE")
       ->required();
   command->add_option("--size", arguments->size, "width and height in pixels")->type_name("WxH")->capture_default_str();
-  command->add_option("--frames", arguments->frames, "temporal frames that make the picture; 0 takes four marches a pixel")
+  command
+      ->add_option("--frames", arguments->frames, "temporal frames that make the picture; 0 takes four marches a pixel")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
   arguments->sky.addPictureOptionsTo(*command);

@@ -163,6 +163,19 @@ TEST(SkyFile, FindsPicturesBesideTheFile) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(SkyFile, TheExampleOfTheDocsIsRight) {
+  const std::string page = readFile(WELKIN_SOURCE_DIR "/docs/sky_file.md", 1 << 20);
+  const std::size_t begin = page.find("```toml\n") + 8;
+  std::string text = page.substr(begin, page.find("```", begin) - begin);
+  const std::size_t map = text.find("  map = ");
+  ASSERT_NE(map, std::string::npos);
+  text.erase(map, text.find('\n', map) - map);  // its picture is not in the docs
+  const Scene scene = parseSky(text, "docs");
+  EXPECT_EQ(scene.quality.interleave, 4);
+  EXPECT_EQ(scene.layers.at(0).profile.erosion, 0.9f);
+  EXPECT_EQ(scene.sheets.size(), 1u);
+}
+
 TEST(SkyFile, AMissingFileIsBadInput) {
   try {
     loadSky("no/such.sky.toml");
