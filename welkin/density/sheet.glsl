@@ -63,6 +63,6 @@ FN Real sheetOpticalDepth(IN(Vec2) p, IN(SheetParams) s) {
   Real t = 0.7f * tufts(p + bend * s.warp, s.fibres, grain, seed + 17u) +
            0.3f * tufts(p + bend * s.warp, s.fibres, 3 * grain, seed + 19u);
   Real rolls = latticeNoise(p, s.bend, 3, seed + 23u);
-  Real edge = mix(Real(0.62f), Real(0.2f), mask * (0.6f + 0.4f * rolls));
-  return s.opticalDepth * mask * smoothstep(edge, edge + 0.4f, t);
+  Real edge = mix(Real(0.8f), Real(0.42f), mask * (0.5f + 0.5f * rolls));
+  return s.opticalDepth * mask * smoothstep(edge, edge + 0.3f, t);
 }

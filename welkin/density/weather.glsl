@@ -163,8 +163,9 @@ FN Real closedCells(IN(Vec2) p, IN(WeatherParams) w, IN(Real) coverage) {
   Real d1 = sqrt(f1);
   Real gap = sqrt(f2) - d1;
   Real large = latticeFbm(p, w.clusters, seed + 5u) - 0.5f;
-  Real open = mix(Real(0.75f), Real(-0.45f), coverage) - 0.8f * w.clustering * large;
-  Real fill = smoothstep(open, open + 0.5f, gap + 0.25f);
+  // The share of the plane with a gap below g is about 1 - exp(-3 g).
+  Real open = -0.33f * log(max(coverage, 0.02f)) - 0.15f - 0.8f * w.clustering * large;
+  Real fill = smoothstep(open, open + 0.3f, gap);
   Real rounded = sqrt(max(1.0f - d1 * d1, 0.0f));
   Real vary = 0.75f + 0.5f * latticeFbm(p, w.warp, seed + 9u);
   return w.thickness * fill * (0.4f + 0.6f * rounded) * vary;

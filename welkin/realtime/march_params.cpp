@@ -50,12 +50,12 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
     m.top = std::max(m.top, shell.top);
     albedo = std::min(albedo, layer.cloud.albedo);
   }
-  if (scene.layers.empty()) m.bottom = 0.0f, m.top = 1.0f;
+  if (scene.layers.empty()) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
   m.skyIrradiance = glm::vec4(light.skyIrradiance, albedo);
   m.stepScale = kStepPerMetre * q.stepScale;
   m.minStep = kMinStep * std::min(q.stepScale, 1.5f);
   m.maxStep = kMaxStep;
-  m.maxDistance = scene.layers.empty() ? 1.0f : kFar;
+  m.maxDistance = kFar;
   m.footprintPerMetre = pixelAngle;
   m.contribution = l.contribution;
   m.octaveExtinction = l.octaveExtinction;

@@ -70,7 +70,7 @@ struct Film {
   float ev = 14.1f;           // EV100
   float compensation = 0.0f;  // stops, in both modes
   ToneCurve tone = ToneCurve::agx;
-  float whiteBalance = 6504.0f;  // K
+  float whiteBalance = 5600.0f;  // K
   float saturation = 1.0f;
 };
 template <>
