@@ -78,8 +78,8 @@ int main() {
   for (const Row& row : rows) {
     fmt::print("{:<26}{:>12.1f}{:>16.2f}{:>10.2f}\n", row.name, row.milliseconds, row.samplesPerPixel,
                rows.front().milliseconds / row.milliseconds);
-    json += fmt::format("{}{{\"name\": \"{}\", \"ms\": {:.2f}, \"samples_per_pixel\": {:.3f}}}", json.empty() ? "" : ", ",
-                        row.name, row.milliseconds, row.samplesPerPixel);
+    json += fmt::format("{}{{\"name\": \"{}\", \"ms\": {:.2f}, \"samples_per_pixel\": {:.3f}}}",
+                        json.empty() ? "" : ", ", row.name, row.milliseconds, row.samplesPerPixel);
   }
   fmt::print("{{\"speedup_all\": {:.2f}, \"samples_ratio\": {:.2f}, \"rows\": [{}]}}\n",
              rows.front().milliseconds / rows.back().milliseconds,

@@ -27,7 +27,8 @@ int main() {
       total += row.bytes;
     }
     fmt::print("{:<26}{:>40}\n", "total", total);
-    json += fmt::format("{}\"{}_total_bytes\": {}, \"{}_table\": [{}]", json.empty() ? "" : ", ", name, total, name, rows);
+    json +=
+        fmt::format("{}\"{}_total_bytes\": {}, \"{}_table\": [{}]", json.empty() ? "" : ", ", name, total, name, rows);
   }
   fmt::print("{{{}}}\n", json);
 }

@@ -79,10 +79,10 @@ TEST(StateGuard, PutsEverythingBack) {
       gl.GetIntegerv(name, v);
       s.insert(s.end(), v, v + count);
     };
-    for (const GLenum name : {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_DRAW_FRAMEBUFFER_BINDING,
-                              GL_READ_FRAMEBUFFER_BINDING, GL_ACTIVE_TEXTURE, GL_UNIFORM_BUFFER_BINDING,
-                              GL_UNPACK_ALIGNMENT, GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA,
-                              GL_BLEND_DST_ALPHA, GL_DEPTH_WRITEMASK})
+    for (const GLenum name :
+         {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING,
+          GL_ACTIVE_TEXTURE, GL_UNIFORM_BUFFER_BINDING, GL_UNPACK_ALIGNMENT, GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB,
+          GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA, GL_DEPTH_WRITEMASK})
       take(name, 1);
     take(GL_VIEWPORT, 4);
     take(GL_SCISSOR_BOX, 4);

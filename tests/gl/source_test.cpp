@@ -19,8 +19,8 @@ SourceResolver files(std::map<std::string, std::string, std::less<>> texts) {
 }
 
 TEST(Source, ExpandsEachFileOnceAndKeepsLines) {
-  const ExpandedSource out =
-      expandIncludes("a\n#include \"x\"\n#include \"y\"\nb\n", "main", files({{"x", "in x\n"}, {"y", "#include \"x\"\nin y\n"}}));
+  const ExpandedSource out = expandIncludes("a\n#include \"x\"\n#include \"y\"\nb\n", "main",
+                                            files({{"x", "in x\n"}, {"y", "#include \"x\"\nin y\n"}}));
   EXPECT_EQ(out.files, (std::vector<std::string>{"main", "x", "y"}));
   EXPECT_EQ(out.text, "a\nin x\nin y\nb\n");
   EXPECT_EQ(out.place(2), "x:1");

@@ -70,7 +70,8 @@ Difference compare(const Points& x, const Points& y, double scale) {
 
 Points scalarResults(const Case& c, const Points& a, const Points& b) {
   Points out(kPoints);
-  for (std::size_t i = 0; i < kPoints; ++i) out[i] = c.scalar(a[i], b[i], inputs().view2, inputs().view3, inputs().viewA);
+  for (std::size_t i = 0; i < kPoints; ++i)
+    out[i] = c.scalar(a[i], b[i], inputs().view2, inputs().view3, inputs().viewA);
   return out;
 }
 
@@ -93,10 +94,10 @@ TEST_P(Parity, EverySimdTargetAgreesWithScalar) {
     Points out(kPoints);
     evaluateSimd(GetParam(), pa.data(), pb.data(), inputs().view2, inputs().view3, inputs().viewA, out.data(), kPoints);
     const Difference d = compare(expected, out, theCase().scale);
-    EXPECT_LE(d.worst, theCase().tolerance) << hwy::TargetName(target) << " at point " << d.at << ": scalar "
-                                            << expected[d.at].x << " " << expected[d.at].y << " " << expected[d.at].z
-                                            << " " << expected[d.at].w << ", SIMD " << out[d.at].x << " "
-                                            << out[d.at].y << " " << out[d.at].z << " " << out[d.at].w;
+    EXPECT_LE(d.worst, theCase().tolerance)
+        << hwy::TargetName(target) << " at point " << d.at << ": scalar " << expected[d.at].x << " " << expected[d.at].y
+        << " " << expected[d.at].z << " " << expected[d.at].w << ", SIMD " << out[d.at].x << " " << out[d.at].y << " "
+        << out[d.at].z << " " << out[d.at].w;
   }
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -107,10 +108,10 @@ class Evaluator {
   explicit Evaluator(gl::ContextKind kind) : context_(kind), gl_(gl::loadApi(context_.loader())), framebuffer_(gl_) {
     vertices_ = gl::VertexArray(gl_);
     const Inputs& in = inputs();
-    s2_ = gl::Texture(gl_, gl::Texture::Kind::plane, gl::kRgba32F, 16, 8, 0, gl::Filter::linear,
-                      gl::Addressing::repeat, in.view2.texels);
-    s3_ = gl::Texture(gl_, gl::Texture::Kind::volume, gl::kRgba32F, 8, 8, 8, gl::Filter::linear,
-                      gl::Addressing::repeat, in.view3.texels);
+    s2_ = gl::Texture(gl_, gl::Texture::Kind::plane, gl::kRgba32F, 16, 8, 0, gl::Filter::linear, gl::Addressing::repeat,
+                      in.view2.texels);
+    s3_ = gl::Texture(gl_, gl::Texture::Kind::volume, gl::kRgba32F, 8, 8, 8, gl::Filter::linear, gl::Addressing::repeat,
+                      in.view3.texels);
     sA_ = gl::Texture(gl_, gl::Texture::Kind::array, gl::kRgba32F, 8, 8, 4, gl::Filter::linear, gl::Addressing::clamp,
                       in.viewA.texels);
     out_ = plane(nullptr);
@@ -119,17 +120,19 @@ class Evaluator {
   Points evaluate(const Case& c, const Points& a, const Points& b) {
     std::string text;
     for (const std::string& file : suite().files) text += "#include \"" + file + "\"\n";
-    text += suite().prelude + "\nuniform sampler2D uA, uB, uS2;\nuniform sampler3D uS3;\nuniform sampler2DArray uSA;\nout vec4 oResult;\n" +
-            "Vec4 evaluate(IN(Vec4) a, IN(Vec4) b, in sampler2D s2, in sampler3D s3, in sampler2DArray sA) " + c.body +
-            "\nvoid main() {\n  ivec2 p = ivec2(gl_FragCoord.xy);\n"
-            "  oResult = evaluate(texelFetch(uA, p, 0), texelFetch(uB, p, 0), uS2, uS3, uSA);\n}\n";
+    text +=
+        suite().prelude +
+        "\nuniform sampler2D uA, uB, uS2;\nuniform sampler3D uS3;\nuniform sampler2DArray uSA;\nout vec4 oResult;\n" +
+        "Vec4 evaluate(IN(Vec4) a, IN(Vec4) b, in sampler2D s2, in sampler3D s3, in sampler2DArray sA) " + c.body +
+        "\nvoid main() {\n  ivec2 p = ivec2(gl_FragCoord.xy);\n"
+        "  oResult = evaluate(texelFetch(uA, p, 0), texelFetch(uB, p, 0), uS2, uS3, uSA);\n}\n";
     const gl::Program program(gl_, c.name, "", text, realtime::shaderSource);
     const gl::Texture ta = plane(a.data()), tb = plane(b.data());
     const gl::Texture* targets[] = {&out_};
     framebuffer_.target(targets);
     gl_.UseProgram(program.id());
-    const std::pair<const char*, const gl::Texture*> units[] = {{"uA", &ta}, {"uB", &tb}, {"uS2", &s2_}, {"uS3", &s3_},
-                                                              {"uSA", &sA_}};
+    const std::pair<const char*, const gl::Texture*> units[] = {
+        {"uA", &ta}, {"uB", &tb}, {"uS2", &s2_}, {"uS3", &s3_}, {"uSA", &sA_}};
     for (int i = 0; i < 5; ++i) {
       gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
       gl_.BindTexture(units[i].second->target(), units[i].second->id());

@@ -16,10 +16,9 @@ HWY_BEFORE_NAMESPACE();
 namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/base/law_begin.inc"
 #define LAW(...) __VA_ARGS__
-#define CASE(name, tolerance, scale, lowA, highA, lowB, highB, ...)                                          \
-  [[maybe_unused]] static Vec4 case_##name([[maybe_unused]] const Vec4& a, [[maybe_unused]] const Vec4& b,   \
-                                           [[maybe_unused]] const Sampler2& s2,                              \
-                                           [[maybe_unused]] const Sampler3& s3,                              \
+#define CASE(name, tolerance, scale, lowA, highA, lowB, highB, ...)                                                  \
+  [[maybe_unused]] static Vec4 case_##name([[maybe_unused]] const Vec4& a, [[maybe_unused]] const Vec4& b,           \
+                                           [[maybe_unused]] const Sampler2& s2, [[maybe_unused]] const Sampler3& s3, \
                                            [[maybe_unused]] const Sampler2Array& sA) __VA_ARGS__
 #include "tests/parity/cases.inc"
 #undef CASE

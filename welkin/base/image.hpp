@@ -10,8 +10,7 @@ struct Image {
   std::vector<float> pixels;
 
   Image() = default;
-  Image(int w, int h, int c)
-      : width(w), height(h), channels(c), pixels(static_cast<std::size_t>(w) * h * c) {}
+  Image(int w, int h, int c) : width(w), height(h), channels(c), pixels(static_cast<std::size_t>(w) * h * c) {}
   float* at(int x, int y) { return pixels.data() + (static_cast<std::size_t>(y) * width + x) * channels; }
   const float* at(int x, int y) const { return pixels.data() + (static_cast<std::size_t>(y) * width + x) * channels; }
 };

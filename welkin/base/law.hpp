@@ -89,10 +89,10 @@ inline vec4 sample3(const Sampler3& s, vec3 p) {
   const Int y1 = wrapIndex(static_cast<Int>(fy) + 1, s.height, s.wrapY);
   const Int z0 = wrapIndex(static_cast<Int>(fz), s.depth, s.wrap);
   const Int z1 = wrapIndex(static_cast<Int>(fz) + 1, s.depth, s.wrap);
-  const vec4 a = mix(mix(texel(s, x0, y0, z0), texel(s, x1, y0, z0), wx),
-                     mix(texel(s, x0, y1, z0), texel(s, x1, y1, z0), wx), wy);
-  const vec4 b = mix(mix(texel(s, x0, y0, z1), texel(s, x1, y0, z1), wx),
-                     mix(texel(s, x0, y1, z1), texel(s, x1, y1, z1), wx), wy);
+  const vec4 a =
+      mix(mix(texel(s, x0, y0, z0), texel(s, x1, y0, z0), wx), mix(texel(s, x0, y1, z0), texel(s, x1, y1, z0), wx), wy);
+  const vec4 b =
+      mix(mix(texel(s, x0, y0, z1), texel(s, x1, y0, z1), wx), mix(texel(s, x0, y1, z1), texel(s, x1, y1, z1), wx), wy);
   return mix(a, b, wz);
 }
 

@@ -143,15 +143,15 @@ struct IVec3 {
   HWY_INLINE IVec3(const ivec3& u) : x(u.x), y(u.y), z(u.z) {}
 };
 
-#define WELKIN_VECTOR_OPERATOR(OP)                                                                            \
-  HWY_INLINE Vec2 operator OP(Vec2 a, Vec2 b) { return Vec2(a.x OP b.x, a.y OP b.y); }                        \
-  HWY_INLINE Vec2 operator OP(Vec2 a, Real b) { return Vec2(a.x OP b, a.y OP b); }                            \
-  HWY_INLINE Vec2 operator OP(Real a, Vec2 b) { return Vec2(a OP b.x, a OP b.y); }                            \
-  HWY_INLINE Vec3 operator OP(Vec3 a, Vec3 b) { return Vec3(a.x OP b.x, a.y OP b.y, a.z OP b.z); }            \
-  HWY_INLINE Vec3 operator OP(Vec3 a, Real b) { return Vec3(a.x OP b, a.y OP b, a.z OP b); }                  \
-  HWY_INLINE Vec3 operator OP(Real a, Vec3 b) { return Vec3(a OP b.x, a OP b.y, a OP b.z); }                  \
+#define WELKIN_VECTOR_OPERATOR(OP)                                                                             \
+  HWY_INLINE Vec2 operator OP(Vec2 a, Vec2 b) { return Vec2(a.x OP b.x, a.y OP b.y); }                         \
+  HWY_INLINE Vec2 operator OP(Vec2 a, Real b) { return Vec2(a.x OP b, a.y OP b); }                             \
+  HWY_INLINE Vec2 operator OP(Real a, Vec2 b) { return Vec2(a OP b.x, a OP b.y); }                             \
+  HWY_INLINE Vec3 operator OP(Vec3 a, Vec3 b) { return Vec3(a.x OP b.x, a.y OP b.y, a.z OP b.z); }             \
+  HWY_INLINE Vec3 operator OP(Vec3 a, Real b) { return Vec3(a.x OP b, a.y OP b, a.z OP b); }                   \
+  HWY_INLINE Vec3 operator OP(Real a, Vec3 b) { return Vec3(a OP b.x, a OP b.y, a OP b.z); }                   \
   HWY_INLINE Vec4 operator OP(Vec4 a, Vec4 b) { return Vec4(a.x OP b.x, a.y OP b.y, a.z OP b.z, a.w OP b.w); } \
-  HWY_INLINE Vec4 operator OP(Vec4 a, Real b) { return Vec4(a.x OP b, a.y OP b, a.z OP b, a.w OP b); }        \
+  HWY_INLINE Vec4 operator OP(Vec4 a, Real b) { return Vec4(a.x OP b, a.y OP b, a.z OP b, a.w OP b); }         \
   HWY_INLINE Vec4 operator OP(Real a, Vec4 b) { return Vec4(a OP b.x, a OP b.y, a OP b.z, a OP b.w); }
 WELKIN_VECTOR_OPERATOR(+)
 WELKIN_VECTOR_OPERATOR(-)
@@ -161,11 +161,11 @@ WELKIN_VECTOR_OPERATOR(/)
 HWY_INLINE Vec2 operator-(Vec2 a) { return Vec2(-a.x, -a.y); }
 HWY_INLINE Vec3 operator-(Vec3 a) { return Vec3(-a.x, -a.y, -a.z); }
 HWY_INLINE Vec4 operator-(Vec4 a) { return Vec4(-a.x, -a.y, -a.z, -a.w); }
-#define WELKIN_COMPOUND(V)                                             \
-  HWY_INLINE V& operator+=(V& a, V b) { return a = a + b; }            \
-  HWY_INLINE V& operator-=(V& a, V b) { return a = a - b; }            \
-  HWY_INLINE V& operator*=(V& a, V b) { return a = a * b; }            \
-  HWY_INLINE V& operator*=(V& a, Real b) { return a = a * b; }         \
+#define WELKIN_COMPOUND(V)                                     \
+  HWY_INLINE V& operator+=(V& a, V b) { return a = a + b; }    \
+  HWY_INLINE V& operator-=(V& a, V b) { return a = a - b; }    \
+  HWY_INLINE V& operator*=(V& a, V b) { return a = a * b; }    \
+  HWY_INLINE V& operator*=(V& a, Real b) { return a = a * b; } \
   HWY_INLINE V& operator/=(V& a, Real b) { return a = a / b; }
 WELKIN_COMPOUND(Vec2)
 WELKIN_COMPOUND(Vec3)
@@ -231,9 +231,9 @@ HWY_INLINE Real cos(Real x) { return hn::Cos(D(), x.v); }
 HWY_INLINE Real acos(Real x) { return hn::Acos(D(), x.v); }
 HWY_INLINE float saturate(float x) { return glm::clamp(x, 0.0f, 1.0f); }
 
-#define WELKIN_MAP1(F)                                                                       \
-  HWY_INLINE Vec2 F(Vec2 a) { return Vec2(F(a.x), F(a.y)); }                                 \
-  HWY_INLINE Vec3 F(Vec3 a) { return Vec3(F(a.x), F(a.y), F(a.z)); }                         \
+#define WELKIN_MAP1(F)                                               \
+  HWY_INLINE Vec2 F(Vec2 a) { return Vec2(F(a.x), F(a.y)); }         \
+  HWY_INLINE Vec3 F(Vec3 a) { return Vec3(F(a.x), F(a.y), F(a.z)); } \
   HWY_INLINE Vec4 F(Vec4 a) { return Vec4(F(a.x), F(a.y), F(a.z), F(a.w)); }
 WELKIN_MAP1(abs)
 WELKIN_MAP1(floor)
@@ -241,10 +241,10 @@ WELKIN_MAP1(fract)
 WELKIN_MAP1(exp)
 WELKIN_MAP1(sqrt)
 #undef WELKIN_MAP1
-#define WELKIN_MAP2(F)                                                                                       \
-  HWY_INLINE Vec2 F(Vec2 a, Vec2 b) { return Vec2(F(a.x, b.x), F(a.y, b.y)); }                               \
-  HWY_INLINE Vec3 F(Vec3 a, Vec3 b) { return Vec3(F(a.x, b.x), F(a.y, b.y), F(a.z, b.z)); }                  \
-  HWY_INLINE Vec3 F(Vec3 a, Real b) { return Vec3(F(a.x, b), F(a.y, b), F(a.z, b)); }                        \
+#define WELKIN_MAP2(F)                                                                      \
+  HWY_INLINE Vec2 F(Vec2 a, Vec2 b) { return Vec2(F(a.x, b.x), F(a.y, b.y)); }              \
+  HWY_INLINE Vec3 F(Vec3 a, Vec3 b) { return Vec3(F(a.x, b.x), F(a.y, b.y), F(a.z, b.z)); } \
+  HWY_INLINE Vec3 F(Vec3 a, Real b) { return Vec3(F(a.x, b), F(a.y, b), F(a.z, b)); }       \
   HWY_INLINE Vec4 F(Vec4 a, Vec4 b) { return Vec4(F(a.x, b.x), F(a.y, b.y), F(a.z, b.z), F(a.w, b.w)); }
 WELKIN_MAP2(min)
 WELKIN_MAP2(max)

@@ -11,14 +11,23 @@ namespace welkin {
 
 // The ten genera of the WMO; `none` for a layer that is not meant to be one of them.
 enum class Genus {
-  none, cirrus, cirrocumulus, cirrostratus, altocumulus, altostratus,
-  nimbostratus, stratocumulus, stratus, cumulus, cumulonimbus
+  none,
+  cirrus,
+  cirrocumulus,
+  cirrostratus,
+  altocumulus,
+  altostratus,
+  nimbostratus,
+  stratocumulus,
+  stratus,
+  cumulus,
+  cumulonimbus
 };
 template <>
 struct ChoiceNames<Genus> {
-  static constexpr std::array<std::string_view, 11> names{
-      "none",         "cirrus",        "cirrocumulus", "cirrostratus", "altocumulus", "altostratus",
-      "nimbostratus", "stratocumulus", "stratus",      "cumulus",      "cumulonimbus"};
+  static constexpr std::array<std::string_view, 11> names{"none",        "cirrus",      "cirrocumulus", "cirrostratus",
+                                                          "altocumulus", "altostratus", "nimbostratus", "stratocumulus",
+                                                          "stratus",     "cumulus",     "cumulonimbus"};
 };
 
 // profile: height field in metres minus noise in metres. nubis: Schneider's model (000 ch. 2.3, 004 ch. 4.3).
@@ -42,25 +51,26 @@ struct WeatherSettings {
   float coverage = 0.42f;
   float precipitation = 0.0f;
   float type = 0.5f;
-  float cellSize = 3800.0f;       // m
-  float sizeExponent = 2.2f;      // p(r) ~ r^-sizeExponent
-  float clusterSize = 10000.0f;   // m
+  float cellSize = 3800.0f;      // m
+  float sizeExponent = 2.2f;     // p(r) ~ r^-sizeExponent
+  float clusterSize = 10000.0f;  // m
   float clustering = 0.9f;
   float roughness = 0.35f;
   float orientation = 1.5708f;    // rad, compass
   float streetSpacing = 2800.0f;  // m
   float anvil = 0.0f;
-  std::string map;                // picture: red coverage, green precipitation, blue type, alpha base height
-  float mapSize = 60000.0f;       // m
-  float mapBaseRange = 0.0f;      // m
+  std::string map;            // picture: red coverage, green precipitation, blue type, alpha base height
+  float mapSize = 60000.0f;   // m
+  float mapBaseRange = 0.0f;  // m
 };
 template <>
 struct FieldTable<WeatherSettings> {
   static auto make() {
     return fieldRows(
         field<&WeatherSettings::population>(
-            "population", "how clouds are spread: single domes, clusters of domes, streets along the wind, closed "
-                          "cells, a front, or a uniform sheet"),
+            "population",
+            "how clouds are spread: single domes, clusters of domes, streets along the wind, closed "
+            "cells, a front, or a uniform sheet"),
         field<&WeatherSettings::coverage>("coverage", {0, 1}, {}, "share of the sky that is given to clouds"),
         field<&WeatherSettings::precipitation>("precipitation", {0, 1}, {},
                                                "chance of rain; darkens the bases and, for nubis, turns the type"),
@@ -80,7 +90,8 @@ struct FieldTable<WeatherSettings> {
         field<&WeatherSettings::streetSpacing, kMetres>("street_spacing", {500, 50000}, {1500, 8000},
                                                         "distance between cloud streets"),
         field<&WeatherSettings::anvil>("anvil", {0, 1}, {}, "how far an anvil spreads from the tallest towers"),
-        pictureField<&WeatherSettings::map>("map", "picture that replaces the generator's authoring map: red coverage, green "
+        pictureField<&WeatherSettings::map>("map",
+                                            "picture that replaces the generator's authoring map: red coverage, green "
                                             "precipitation, blue type, alpha base height"),
         field<&WeatherSettings::mapSize, kMetres>("map_size", {1000, 1e7}, {10000, 500000},
                                                   "edge of the land that the picture covers; it repeats beyond"),
@@ -91,23 +102,23 @@ struct FieldTable<WeatherSettings> {
 
 // Shape "profile" (see docs/model.md).
 struct ProfileSettings {
-  float baseVariation = 40.0f;     // m
-  float lengthScale = 900.0f;      // m
+  float baseVariation = 40.0f;  // m
+  float lengthScale = 900.0f;   // m
   float lengthFraction = 0.9f;
-  float minLength = 300.0f;        // m
+  float minLength = 300.0f;  // m
   float erosion = 0.65f;
   float baseErosion = 0.9f;
   float baseCut = 0.25f;
-  float noiseTile = 3000.0f;       // m
+  float noiseTile = 3000.0f;  // m
   float billowMix = 0.75f;
-  float warp = 400.0f;             // m
-  float detail = 160.0f;           // m
-  float detailTile = 700.0f;       // m
-  float fineDetail = 60.0f;        // m
-  float fineTile = 130.0f;         // m
-  float ramp = 30.0f;              // m
-  float baseFade = 40.0f;          // m
-  float baseRagged = 25.0f;        // m
+  float warp = 400.0f;        // m
+  float detail = 160.0f;      // m
+  float detailTile = 700.0f;  // m
+  float fineDetail = 60.0f;   // m
+  float fineTile = 130.0f;    // m
+  float ramp = 30.0f;         // m
+  float baseFade = 40.0f;     // m
+  float baseRagged = 25.0f;   // m
   float liquidGradient = 0.3f;
   float anvilDensity = 0.15f;
 };
@@ -122,7 +133,8 @@ struct FieldTable<ProfileSettings> {
         field<&ProfileSettings::lengthFraction>("length_fraction", {0, 2}, {}, "amplitude as a share of the height"),
         field<&ProfileSettings::minLength, kMetres>("min_length", {10, 2000}, {60, 600},
                                                     "least amplitude, that of the thinnest cloud"),
-        field<&ProfileSettings::erosion>("erosion", {0, 2}, {0.4, 1.2}, "0 smooth domes, 0.8 cauliflower, above ragged"),
+        field<&ProfileSettings::erosion>("erosion", {0, 2}, {0.4, 1.2},
+                                         "0 smooth domes, 0.8 cauliflower, above ragged"),
         field<&ProfileSettings::baseErosion>("base_erosion", {0, 1}, {}, "erosion at the base as a share of erosion"),
         field<&ProfileSettings::baseCut>("base_cut", {0, 1}, {0, 0.5}, "how far the outline draws in at the base"),
         field<&ProfileSettings::noiseTile, kMetres>("noise_tile", {200, 20000}, {1300, 7000},
@@ -152,12 +164,12 @@ struct ChoiceNames<DetailTransition> {
 
 // Shape "nubis".
 struct NubisSettings {
-  float baseTile = 9000.0f;        // m
-  float detailTile = 900.0f;       // m
-  float curlTile = 3000.0f;        // m
-  float curlAmplitude = 150.0f;    // m
+  float baseTile = 9000.0f;      // m
+  float detailTile = 900.0f;     // m
+  float curlTile = 3000.0f;      // m
+  float curlAmplitude = 150.0f;  // m
   float detailErosion = 0.2f;
-  float weatherTile = 60000.0f;    // m, feature size of the procedural map
+  float weatherTile = 60000.0f;  // m, feature size of the procedural map
   DetailTransition transition = DetailTransition::saturated;
 };
 template <>
@@ -183,14 +195,14 @@ struct FieldTable<NubisSettings> {
 struct CloudLayer {
   LayerShape shape = LayerShape::profile;
   Genus genus = Genus::cumulus;
-  float base = 1200.0f;            // m
-  float thickness = 1700.0f;       // m
-  float extinction = 0.1f;         // 1/m
+  float base = 1200.0f;       // m
+  float thickness = 1700.0f;  // m
+  float extinction = 0.1f;    // 1/m
   float albedo = 1.0f;
-  float dropletDiameter = 12.0f;   // um
-  float shear = 0.0f;              // m of sideways offset from base to top
-  float detailDrift = 1.3f;        // speed of the detail noise relative to the wind
-  float updraft = 0.5f;            // m/s
+  float dropletDiameter = 12.0f;  // um
+  float shear = 0.0f;             // m of sideways offset from base to top
+  float detailDrift = 1.3f;       // speed of the detail noise relative to the wind
+  float updraft = 0.5f;           // m/s
   int seed = 0;
 };
 template <>
@@ -230,15 +242,15 @@ struct ChoiceNames<SheetKind> {
 // A thin high cloud: a drifting two-dimensional field of optical depth (004 ch. 4.5.4).
 struct Sheet {
   SheetKind kind = SheetKind::cirrus;
-  float height = 9000.0f;          // m
+  float height = 9000.0f;  // m
   float opticalDepth = 0.25f;
   float coverage = 0.5f;
-  float tile = 9000.0f;            // m
+  float tile = 9000.0f;  // m
   float stretch = 4.0f;
-  float warp = 3500.0f;            // m
-  float orientation = 1.2f;        // rad
-  float windSpeed = 25.0f;         // m/s
-  float windFrom = 4.7124f;        // rad
+  float warp = 3500.0f;      // m
+  float orientation = 1.2f;  // rad
+  float windSpeed = 25.0f;   // m/s
+  float windFrom = 4.7124f;  // rad
   int seed = 0;
 };
 template <>

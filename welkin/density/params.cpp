@@ -66,7 +66,8 @@ glm::dvec2 driftOffset(const Drift& drift) {
 law::PlanetParams planetParams(const glm::dvec3& anchor) {
   const glm::dvec3 fromCentre = anchor + glm::dvec3(0.0, 0.0, kPlanetRadius);
   const double r = glm::length(fromCentre);
-  if (!(r > 1.0)) throw Error(ErrorKind::badInput, "", "the camera is at the centre of the planet; move it to the surface");
+  if (!(r > 1.0))
+    throw Error(ErrorKind::badInput, "", "the camera is at the centre of the planet; move it to the surface");
   law::PlanetParams p{};
   const glm::dvec3 up = fromCentre / r;
   p.up = glm::vec4(glm::vec3(up), static_cast<float>(r));
@@ -183,8 +184,7 @@ law::SheetParams sheetParams(const Sheet& sheet, const glm::dvec2& worldAnchor, 
 
 Shell shellOf(const Layer& layer) {
   const CloudLayer& cloud = layer.cloud;
-  if (cloud.shape == LayerShape::nubis)
-    return {cloud.base, cloud.base + cloud.thickness + layer.weather.mapBaseRange};
+  if (cloud.shape == LayerShape::nubis) return {cloud.base, cloud.base + cloud.thickness + layer.weather.mapBaseRange};
   const float shift = layer.profile.baseVariation + layer.profile.baseRagged;
   // Type and the variation of closed sheets raise tops by up to 40 %; erosion only removes.
   const float top = cloud.thickness * 1.45f;

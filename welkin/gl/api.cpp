@@ -20,7 +20,7 @@ void load(const Loader& loader, const char* name, Function& function) {
 Api loadApi(const Loader& loader) {
   Api gl;
   std::string missing;
-#define WELKIN_GL_LOAD(UPPER, Name)   \
+#define WELKIN_GL_LOAD(UPPER, Name)  \
   load(loader, "gl" #Name, gl.Name); \
   if (!gl.Name) missing += missing.empty() ? "gl" #Name : ", gl" #Name;
   WELKIN_GL_FUNCTIONS(WELKIN_GL_LOAD)

@@ -54,11 +54,13 @@ Context::Context(ContextKind kind) : state_(std::make_unique<State>()) {
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (!eglChooseConfig(state_->display, configAttributes, &config, 1, &count) || count == 0) config = nullptr;
-  const EGLint desktop[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
-                            EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+  const EGLint desktop[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLint embedded[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
   state_->context = eglCreateContext(state_->display, config, EGL_NO_CONTEXT, es ? embedded : desktop);
-  if (state_->context == EGL_NO_CONTEXT) refuse(es ? "creating an OpenGL ES 3 context" : "creating an OpenGL 3.3 context");
+  if (state_->context == EGL_NO_CONTEXT)
+    refuse(es ? "creating an OpenGL ES 3 context" : "creating an OpenGL 3.3 context");
   if (!eglMakeCurrent(state_->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state_->context))
     refuse("making the context current without a surface");
   state_->loader = [](const char* name) { return reinterpret_cast<void*>(eglGetProcAddress(name)); };

@@ -14,10 +14,7 @@ Texture::Texture(const Api& gl, Kind kind, const Format& format, int width, int 
                  Addressing addressing, const void* texels)
     : gl_(&gl),
       target_(kind == Kind::plane ? GL_TEXTURE_2D : (kind == Kind::array ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_3D)),
-      format_(format),
-      width_(width),
-      height_(height),
-      depth_(kind == Kind::plane ? 0 : depth) {
+      format_(format), width_(width), height_(height), depth_(kind == Kind::plane ? 0 : depth) {
   gl.GenTextures(1, &id_);
   gl.BindTexture(target_, id_);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -138,8 +135,9 @@ Program::Program(const Api& gl, const std::string& name, const std::string& defi
                  const SourceResolver& resolver, const std::string& vertex)
     : gl_(&gl) {
   const std::string header = versionHeader(gl) + defines;
-  const GLuint vs = compile(gl, GL_VERTEX_SHADER, name, header,
-                            expandIncludes(vertex.empty() ? kFullScreenTriangle : vertex, name + " (vertex)", resolver));
+  const GLuint vs =
+      compile(gl, GL_VERTEX_SHADER, name, header,
+              expandIncludes(vertex.empty() ? kFullScreenTriangle : vertex, name + " (vertex)", resolver));
   GLuint fs = 0;
   try {
     fs = compile(gl, GL_FRAGMENT_SHADER, name, header, expandIncludes(fragment, name, resolver));

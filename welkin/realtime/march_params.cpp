@@ -37,7 +37,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.sun = glm::vec4(sunDirection, l.powder);
   m.ambientSky = glm::vec4(light.meanRadiance, l.ambient);
   const float sunHeight = std::max(sunDirection.z, 0.0f);
-  const glm::vec3 ground = scene.ground.albedo * (0.7f * sunHeight * light.sunIrradiance + light.skyIrradiance) / 3.14159265f;
+  const glm::vec3 ground =
+      scene.ground.albedo * (0.7f * sunHeight * light.sunIrradiance + light.skyIrradiance) / 3.14159265f;
   m.ambientGround = glm::vec4(ground, l.groundBounce);
   m.groundAlbedo = glm::vec4(scene.ground.albedo, drawGround ? 1.0f : 0.0f);
   m.bottom = 1e9f;

@@ -18,11 +18,9 @@ struct Offscreen::State {
   View view;
 
   State(int width, int height)
-      : gl(gl::loadApi(context.loader())),
-        target(gl, gl::Texture::Kind::plane, gl::kRgba32F, width, height, 0, gl::Filter::nearest, gl::Addressing::clamp,
-               nullptr),
-        framebuffer(gl),
-        renderer(context.loader()) {
+      : gl(gl::loadApi(context.loader())), target(gl, gl::Texture::Kind::plane, gl::kRgba32F, width, height, 0,
+                                                  gl::Filter::nearest, gl::Addressing::clamp, nullptr),
+        framebuffer(gl), renderer(context.loader()) {
     const gl::Texture* targets[] = {&target};
     framebuffer.target(targets);
     gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);

@@ -48,9 +48,9 @@ struct View::State {
   int width = 0, height = 0, interleave = 0;
   gl::Texture marched, marchedDepth, samples;
   std::array<gl::Texture, 2> history;
-  int current = 0;            // history that was written last
-  int frames = 0;             // since the last reset
-  int still = 0;              // frames since anything moved
+  int current = 0;  // history that was written last
+  int frames = 0;   // since the last reset
+  int still = 0;    // frames since anything moved
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
   double lastTime = 0.0;
@@ -94,7 +94,8 @@ struct Renderer::State {
                         texel.data());
     resolve = gl::Program(gl, "resolve", "", fileText("welkin/realtime/shaders/resolve.frag.glsl"), shaderSource);
     composite = gl::Program(gl, "composite", "", fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
-    weatherProgram = gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
+    weatherProgram =
+        gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
   }
 
   static bool uses(const Scene& sky, LayerShape shape) {
@@ -163,15 +164,19 @@ void Renderer::State::makeMarch() {
   std::string layers;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     const bool nubis = scene.layers[i].cloud.shape == LayerShape::nubis;
-    layers += nubis ? fmt::format("found = nubisExtinction(q, full, sky.dither, uLayer[{0}], uClip[{0}], uWeather, uExtra, "
-                                  "uNubisBase, uNubisDetail, uCurl); ", i)
-                    : fmt::format("found = profileExtinction(q, footprint, sky.dither, uLayer[{0}], uClip[{0}], "
-                                  "uWeather, uExtra, uBaseNoise, uDetailNoise, uWarpNoise); ", i);
+    layers += nubis ? fmt::format(
+                          "found = nubisExtinction(q, full, sky.dither, uLayer[{0}], uClip[{0}], uWeather, uExtra, "
+                          "uNubisBase, uNubisDetail, uCurl); ",
+                          i)
+                    : fmt::format(
+                          "found = profileExtinction(q, footprint, sky.dither, uLayer[{0}], uClip[{0}], "
+                          "uWeather, uExtra, uBaseNoise, uDetailNoise, uWarpNoise); ",
+                          i);
     layers += "sum = vec3(sum.x + found.x, max(sum.y, found.y), sum.z + found.z); ";
   }
-  const std::string defines = fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define SKY_LAYERS {}\n{}",
-                                          kMaxLayers, scene.sheets.size(), layers,
-                                          counting ? "#define COUNT_SAMPLES\n" : "");
+  const std::string defines =
+      fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define SKY_LAYERS {}\n{}", kMaxLayers,
+                  scene.sheets.size(), layers, counting ? "#define COUNT_SAMPLES\n" : "");
   if (defines == marchDefines) return;
   march = gl::Program(gl, "march", defines, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
   marchDefines = defines;
@@ -180,7 +185,8 @@ void Renderer::State::makeMarch() {
 void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   State& s = *state_;
   if (scene.layers.size() > kMaxLayers || scene.sheets.size() > kMaxSheets)
-    throw Error(ErrorKind::badInput, "", fmt::format("a sky has at most {} layers and {} sheets", kMaxLayers, kMaxSheets));
+    throw Error(ErrorKind::badInput, "",
+                fmt::format("a sky has at most {} layers and {} sheets", kMaxLayers, kMaxSheets));
   const gl::StateGuard guard(s.gl);
   s.gl.BindVertexArray(s.triangle.id());
   s.sunDirection = sunDirection(scene.sun);
@@ -243,8 +249,8 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
 
 void Renderer::State::weatherPass(const glm::dvec3& position, const Drift& drift) {
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
-    weather->update(static_cast<int>(i), scene.layers[i], glm::dvec2(position), drift, scene.seed, weatherProgram, framebuffer,
-                       weatherBuffer, maps[i] ? maps[i] : white);
+    weather->update(static_cast<int>(i), scene.layers[i], glm::dvec2(position), drift, scene.seed, weatherProgram,
+                    framebuffer, weatherBuffer, maps[i] ? maps[i] : white);
 }
 
 void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
@@ -339,8 +345,9 @@ void Renderer::render(View& view, const Frame& frame) {
   View::State& v = *view.state_;
   if (!s.hasScene) throw Error(ErrorKind::failed, "", "render() was called before setScene()");
   if (frame.width < 1 || frame.height < 1 || frame.width > 16384 || frame.height > 16384)
-    throw Error(ErrorKind::badInput, "", fmt::format("a picture of {}x{} pixels cannot be drawn; edges go from 1 to 16384",
-                                                     frame.width, frame.height));
+    throw Error(
+        ErrorKind::badInput, "",
+        fmt::format("a picture of {}x{} pixels cannot be drawn; edges go from 1 to 16384", frame.width, frame.height));
   const gl::StateGuard guard(s.gl);
   s.gl.BindVertexArray(s.triangle.id());
   s.makeTargets(v, frame);

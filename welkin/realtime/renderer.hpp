@@ -24,17 +24,17 @@ enum class Background { skyAndGround, sky, host };
 
 // One picture to be drawn. Positions in metres.
 struct Frame {
-  int width = 0, height = 0;      // of the target, from its lower left corner
-  unsigned framebuffer = 0;       // its first colour attachment receives linear light
-  glm::mat4 view{1.0f};           // world to eye; its translation is not used
-  glm::mat4 projection{1.0f};     // without jitter; forward, reversed and infinite depth are told apart by its numbers
-  glm::dvec3 position{0.0};       // of the eye in the host's world
+  int width = 0, height = 0;   // of the target, from its lower left corner
+  unsigned framebuffer = 0;    // its first colour attachment receives linear light
+  glm::mat4 view{1.0f};        // world to eye; its translation is not used
+  glm::mat4 projection{1.0f};  // without jitter; forward, reversed and infinite depth are told apart by its numbers
+  glm::dvec3 position{0.0};    // of the eye in the host's world
   UpAxis up = UpAxis::z;
   Background background = Background::skyAndGround;
-  unsigned depthTexture = 0;      // the host's scene depth, as large as the target; 0: none
+  unsigned depthTexture = 0;  // the host's scene depth, as large as the target; 0: none
   DepthRange depthRange = DepthRange::minusOneToOne;
-  double time = 0.0;              // s, moves the clouds
-  float preExposure = 1.0f;       // factor on kcd/m^2 before it is written
+  double time = 0.0;         // s, moves the clouds
+  float preExposure = 1.0f;  // factor on kcd/m^2 before it is written
 };
 
 // A view's memory: one for each camera, mirror or cube face that is drawn again and again.
@@ -56,11 +56,11 @@ class View {
 // What a frame has cost.
 struct PassCost {
   std::string name;
-  double milliseconds = 0.0;       // by timestamps; 0 where the driver has none
+  double milliseconds = 0.0;  // by timestamps; 0 where the driver has none
 };
 struct FrameCost {
   std::vector<PassCost> passes;
-  double densitySamples = 0.0;     // in all; only while counting
+  double densitySamples = 0.0;  // in all; only while counting
   double rays = 0.0;
 };
 struct MemoryRow {
@@ -73,7 +73,7 @@ struct MemoryRow {
 // noise/textures.hpp.
 struct CustomTextures {
   Volume profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl;
-  std::vector<Volume> weatherMaps;  // one for each layer: RGBA authoring map
+  std::vector<Volume> weatherMaps;      // one for each layer: RGBA authoring map
   std::shared_ptr<const SkyModel> sky;  // paints the sky in place of atmosphere.model
 };
 

@@ -61,21 +61,13 @@ struct SkyTables::Input {
 };
 
 SkyTables::SkyTables(const gl::Api& gl)
-    : gl_(gl),
-      framebuffer_(gl),
-      vertices_(gl),
-      block_(gl),
-      transmittancePass_(pass(gl, "sky_transmittance")),
-      multiScatteringPass_(pass(gl, "sky_multi_scattering")),
-      skyViewPass_(pass(gl, "sky_view")),
+    : gl_(gl), framebuffer_(gl), vertices_(gl), block_(gl), transmittancePass_(pass(gl, "sky_transmittance")),
+      multiScatteringPass_(pass(gl, "sky_multi_scattering")), skyViewPass_(pass(gl, "sky_view")),
       aerialPass_(pass(gl, "sky_aerial")),
       transmittance_(plane(gl, gl::kRgba16F, law::kTransmittanceWidth, law::kTransmittanceHeight)),
       multiScattering_(plane(gl, gl::kRgba16F, law::kMultiScatteringSize, law::kMultiScatteringSize)),
-      skyView_(plane(gl, gl::kRgba16F, law::kSkyViewWidth, law::kSkyViewHeight)),
-      aerialInscatter_(volume(gl)),
-      aerialTransmittance_(volume(gl)),
-      inscatterSum_{sum(gl), sum(gl)},
-      throughSum_{sum(gl), sum(gl)} {}
+      skyView_(plane(gl, gl::kRgba16F, law::kSkyViewWidth, law::kSkyViewHeight)), aerialInscatter_(volume(gl)),
+      aerialTransmittance_(volume(gl)), inscatterSum_{sum(gl), sum(gl)}, throughSum_{sum(gl), sum(gl)} {}
 
 void SkyTables::update(const Atmosphere& atmosphere, const glm::vec3& sunDirection, double cameraAltitude,
                        const glm::vec3& groundAlbedo, const SkyModel* user) {

@@ -9,12 +9,10 @@ constexpr double kLeash = 0.08;  // share of a level's edge that the camera may 
 }
 
 WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers)
-    : gl_(gl),
-      extent_(extent),
-      main_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels, gl::Filter::linear,
-            gl::Addressing::clamp, nullptr),
-      extra_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels, gl::Filter::linear,
-             gl::Addressing::clamp, nullptr),
+    : gl_(gl), extent_(extent), main_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels,
+                                      layers * extent.levels, gl::Filter::linear, gl::Addressing::clamp, nullptr),
+      extra_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels,
+             gl::Filter::linear, gl::Addressing::clamp, nullptr),
       levels_(static_cast<std::size_t>(layers * extent.levels)) {}
 
 double WeatherLevels::edge(int level) const { return extent_.finest * std::pow(extent_.ratio, level); }

@@ -1,6 +1,6 @@
 #pragma once
-// Clip levels of the weather: nested squares round the camera in two texture arrays, those of all cloud layers one after
-// the other, made anew when the camera leaves the middle of a level or the weather changes.
+// Clip levels of the weather: nested squares round the camera in two texture arrays, those of all cloud layers one
+// after the other, made anew when the camera leaves the middle of a level or the weather changes.
 #include <glm/vec2.hpp>
 #include <vector>
 
@@ -24,7 +24,8 @@ class WeatherLevels {
   // Makes what layer `index` lacks for a camera at `position`. `map`: its authoring picture (a white texel if none).
   // Returns the number of levels drawn. Leaves framebuffer, program and viewport changed.
   int update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
-             const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer, const gl::Texture& map);
+             const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
+             const gl::Texture& map);
 
   // For positions relative to `position`.
   law::ClipParams params(int index, const glm::dvec2& position, const Drift& drift) const;
