@@ -37,16 +37,11 @@ FN Real erode(IN(Real) base, IN(Real) modifier, IN(float) amount) {
   return saturate(remap(base, amount * modifier, 1.0f, 0.0f, 1.0f));
 }
 
-// As profileExtinction; `full` false leaves the detail out (the cheap sample of 004 ch. 4.5.2). Its second number is the
-// cheap density, zero or less where no full sample can be in cloud.
-FN Vec3 nubisExtinction(IN(Vec3) point, IN(Mask) full, IN(Real) dither, IN(LayerParams) c, IN(ClipParams) clip,
-                        IN(Sampler2Array) weather, IN(Sampler2Array) weather2, IN(Sampler3) baseNoise,
-                        IN(Sampler3) detailNoise, IN(Sampler2) curlNoise) {
-  Vec3 q = unsheared(point, c);
-  Vec3 place = weatherPlace(clip, Vec2(q.x, q.y), dither);
-  Vec2 w = xy(sample2Array(weather, xy(place), place.z));
-  Vec2 extra = xy(sample2Array(weather2, xy(place), place.z));
-  Real h = (q.z - c.base - extra.y) / c.thickness;
+// As profileExtinctionIn; `full` false leaves the detail out (the cheap sample of 004 ch. 4.5.2). Its second number is
+// the cheap density, zero or less where no full sample can be in cloud.
+FN Vec3 nubisExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Mask) full, IN(LayerParams) c, IN(Sampler3) baseNoise,
+                          IN(Sampler3) detailNoise, IN(Sampler2) curlNoise) {
+  Real h = (q.z - c.base - w.w) / c.thickness;
   Mask within = both(h > 0.0f, h < 1.0f);
   h = saturate(h);
   Vec4 shape = sample3(baseNoise, q * c.noise.w + xyz(c.noise));
@@ -58,5 +53,16 @@ FN Vec3 nubisExtinction(IN(Vec3) point, IN(Mask) full, IN(Real) dither, IN(Layer
   Real detail = sample3(detailNoise, moved * c.detailing.w + xyz(c.detailing)).x;
   Real eroded = erode(base, detailModifier(detail, h, c.transition), c.detailErosion);
   Real density = select(full, eroded, base);
-  return Vec3(c.extinction * density, base, c.extinction * density * extra.x);
+  return Vec3(c.extinction * density, base, c.extinction * density * w.z);
+}
+
+// As profileExtinction.
+FN Vec3 nubisExtinction(IN(Vec3) point, IN(Mask) full, IN(Real) dither, IN(LayerParams) c, IN(ClipParams) clip,
+                        IN(Sampler2Array) weather, IN(Sampler2Array) weather2, IN(Sampler3) baseNoise,
+                        IN(Sampler3) detailNoise, IN(Sampler2) curlNoise) {
+  Vec3 q = unsheared(point, c);
+  Vec3 place = weatherPlace(clip, Vec2(q.x, q.y), dither);
+  Vec2 w = xy(sample2Array(weather, xy(place), place.z));
+  Vec2 extra = xy(sample2Array(weather2, xy(place), place.z));
+  return nubisExtinctionIn(Vec4(w.x, w.y, extra.x, extra.y), q, full, c, baseNoise, detailNoise, curlNoise);
 }

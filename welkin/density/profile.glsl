@@ -41,28 +41,27 @@ FN Real smoothMax(IN(Real) a, IN(Real) b, IN(float) k) {
   return max(a, b) + h * h * k * 0.25f;
 }
 
-FN Vec3 profileExtinction(IN(Vec3) point, IN(Real) footprint, IN(Real) dither, IN(LayerParams) c, IN(ClipParams) clip,
-                          IN(Sampler2Array) weather, IN(Sampler2Array) weather2, IN(Sampler3) baseNoise,
-                          IN(Sampler3) detailNoise, IN(Sampler3) warpNoise) {
-  Vec3 q = unsheared(point, c);
+// Where in the weather the column of a point stands: overhangs come from a sideways warp that grows with height.
+FN Vec2 profileColumn(IN(Vec3) q, IN(LayerParams) c, IN(Sampler3) warpNoise) {
   Vec4 drift = sample3(warpNoise, q * c.warping.w + xyz(c.warping));
   Real rise = saturate((q.z - c.base) * 0.0025f);
-  Vec2 column = Vec2(q.x + c.warp * rise * (drift.x - 0.5f), q.y + c.warp * rise * (drift.y - 0.5f));
-  Vec3 place = weatherPlace(clip, column, dither);
-  Vec4 w = sample2Array(weather, xy(place), place.z);
-  Vec2 extra = Vec2(0.0f);  // anvil, precipitation
-  if (c.needsExtra != 0) extra = xy(sample2Array(weather2, xy(place), place.z));
+  return Vec2(q.x + c.warp * rise * (drift.x - 0.5f), q.y + c.warp * rise * (drift.y - 0.5f));
+}
+
+// The answer at the unsheared point q whose column has weather w.
+FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(LayerParams) c, IN(Sampler3) baseNoise,
+                            IN(Sampler3) detailNoise) {
   Real hb = q.z - c.base - w.y;
   Real amplitude = min(Real(c.lengthScale), c.lengthFraction * w.x + c.minLength);
   Real profile = min(min((w.x - hb) / amplitude, Real(1.0f)), (w.x - 20.0f) * 0.02f);
   Real ice = 0.0f;
   Real n = sample3(baseNoise, q * c.noise.w + xyz(c.noise)).x;
   if (c.hasAnvil != 0) {
-    Real flare = smoothstep(0.5f, 1.05f, extra.x);
+    Real flare = smoothstep(0.5f, 1.05f, w.z);
     Real above = hb - 0.86f * c.thickness;
-    Real half_ = c.thickness * 0.085f * (0.15f + 0.85f * extra.x);
+    Real half_ = c.thickness * 0.085f * (0.15f + 0.85f * w.z);
     Real inside = min(half_ - above, half_ + above + 0.24f * c.thickness * flare);
-    Real sheet = select(extra.x > 0.0f, min(inside / (0.6f * amplitude), saturate(4.0f * extra.x)), Real(-1.0f));
+    Real sheet = select(w.z > 0.0f, min(inside / (0.6f * amplitude), saturate(4.0f * w.z)), Real(-1.0f));
     ice = smoothstep(0.0f, 0.35f, sheet) * smoothstep(0.55f, 0.8f, hb / c.thickness);
     profile = smoothMax(profile, sheet, 0.3f);
   }
@@ -85,5 +84,17 @@ FN Vec3 profileExtinction(IN(Vec3) point, IN(Real) footprint, IN(Real) dither, I
   Real sigma = c.extinction * dense * liquid * mix(Real(1.0f), Real(c.anvilDensity), ice);
   Mask within = both(q.z > c.bottom, q.z < c.top);
   sigma = select(within, sigma, Real(0.0f));
-  return Vec3(sigma, select(within, profile, Real(-1.0f)), sigma * extra.y);
+  return Vec3(sigma, select(within, profile, Real(-1.0f)), sigma * w.w);
+}
+
+// The answer at a point of cloud space, weather looked up in clip levels.
+FN Vec3 profileExtinction(IN(Vec3) point, IN(Real) footprint, IN(Real) dither, IN(LayerParams) c, IN(ClipParams) clip,
+                          IN(Sampler2Array) weather, IN(Sampler2Array) weather2, IN(Sampler3) baseNoise,
+                          IN(Sampler3) detailNoise, IN(Sampler3) warpNoise) {
+  Vec3 q = unsheared(point, c);
+  Vec3 place = weatherPlace(clip, profileColumn(q, c, warpNoise), dither);
+  Vec2 column = xy(sample2Array(weather, xy(place), place.z));
+  Vec2 extra = Vec2(0.0f);
+  if (c.needsExtra != 0) extra = xy(sample2Array(weather2, xy(place), place.z));
+  return profileExtinctionIn(Vec4(column.x, column.y, extra.x, extra.y), q, footprint, c, baseNoise, detailNoise);
 }
