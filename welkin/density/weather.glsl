@@ -93,8 +93,12 @@ FN Real growth(IN(Vec2) p, IN(WeatherParams) w) {
   return mix(Real(0.3f), Real(1.0f), line) + 0.15f * smoothstep(0.1f, 1.0f, across);
 }
 
-// Height of a dome of radius r (m) at squared distance d2 from its centre: a hemisphere scaled to height h.
-FN Real dome(IN(Real) d2, IN(Real) r, IN(Real) h) { return h * sqrt(max(1.0f - d2 / (r * r), 0.0f)); }
+// Height of a dome of radius r and height h (m) at squared distance d2 from its centre: half an ellipsoid where it is
+// wider than high, a paraboloid where it is higher, since steep sides stand like walls.
+FN Real dome(IN(Real) d2, IN(Real) r, IN(Real) h) {
+  Real x = max(1.0f - d2 / (r * r), 0.0f);
+  return h * mix(sqrt(x), x, saturate(h / r - 0.5f));
+}
 
 // Clouds of one size class: (height in m, anvil 0..1). `scale` = 2^class subdivisions of the cell lattice.
 FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int) scale, IN(float) chance) {
@@ -123,7 +127,7 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     Real lift = 1.0f;
     if (w.anvil <= 0.0f) lift = exp(0.75f * log(max(relative, 1e-4f)));
     Real top = w.thickness * growth(place, w) * mix(Real(0.6f), Real(1.4f), map4.z) * lift * (0.8f + 0.2f * u);
-    Real best = dome(dot(d, d), 0.72f * r, 0.55f * top);
+    Real best = dome(dot(d, d), 0.8f * r, mix(0.6f, 0.95f, w.anvil) * top);
     Uint s = h2;
     for (int j = 0; j < 6; ++j) {
       s = nextHash(s);
@@ -136,7 +140,7 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     }
     height = max(height, select(here, best, Real(0.0f)));
     // The anvil: an ellipse that the wind carries off the tower.
-    Vec2 a = d - Vec2(w.downwindX, w.downwindY) * (0.7f * r);
+    Vec2 a = d - Vec2(w.downwindX, w.downwindY) * (0.4f * r);
     Real along = a.x * w.downwindX + a.y * w.downwindY;
     Real across = a.y * w.downwindX - a.x * w.downwindY;
     Real q = (along * along / 1.35f + across * across * 1.35f) / (5.76f * r * r);

@@ -96,10 +96,11 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     Mask fromGround = both(mode > 2.5f, mode < 3.5f);
     if (noneOf(mode < 3.5f)) break;
 
-    // Where the sample is.
-    Vec3 offset = sun * (lightAt + lightStep * jitter.y);
+    // Where the sample is. Each step of the light has a place of its own, so that their errors cancel.
+    Real within = fract(jitter.y + 0.61803399f * k);
+    Vec3 offset = sun * (lightAt + lightStep * within);
     if (m.nubis != 0) offset = sun * lightAt + coneKernel(k) * (lightStep * 0.5f * k);
-    offset = select(upward, up * (lightAt + lightStep * jitter.y), offset);
+    offset = select(upward, up * (lightAt + lightStep * within), offset);
     Vec3 ground = sun * ((m.bottom + shell * (k + jitter.z) / float(m.groundSteps)) / slant);
     Vec3 d = dir * select(fromGround, tGround, t);
     d = d + select(fromGround, ground, select(along, Vec3(0.0f), offset));
@@ -180,7 +181,10 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
       }
       source = sunlight * (scattered * powder);
       Real above = sigma * max(q.z - m.bottom, 0.0f);
-      source += xyz(m.ambientSky) * (m.ambientSky.w * (0.75f * exp(-0.12f * tauUp) + 0.06f));
+      source += xyz(m.ambientSky) * (m.ambientSky.w * 0.75f * exp(-0.12f * tauUp));
+      // Deep inside, light has lost its direction and falls off as in two-stream theory with g = 0.86.
+      Real over = tauUp * (1.0f + m.rainAbsorption * rain);
+      source += xyz(m.diffused) * (m.diffused.w * (1.0f - exp(-0.12f * tauUp)) / (1.0f + 0.105f * over));
       source += xyz(m.ambientGround) * (m.ambientGround.w * (0.5f * exp(-0.072f * above) + 0.03f));
     }
     Real stride = select(fineLeft > 0.5f, 0.25f * spacing, spacing);

@@ -26,6 +26,27 @@ float lightRatio(int steps) {
   return static_cast<float>(low);
 }
 
+// What the layers together do to the light below them: the share of sky that they cover, and the share of light that
+// gets through there (two-stream, conservative: 1 / (1 + 3/4 (1 - g) tau), g = 0.86). Optical depths are estimates from
+// the layers' settings: this steers only the light of ground and air under the clouds.
+struct Veil {
+  float cover = 0.0f, through = 1.0f;
+  float share() const { return 1.0f - cover + cover * through; }
+};
+Veil veilOf(const Scene& scene) {
+  Veil veil;
+  for (const Layer& layer : scene.layers) {
+    const float depth = 0.4f * layer.cloud.extinction * layer.cloud.thickness;
+    veil.cover = 1.0f - (1.0f - veil.cover) * (1.0f - layer.weather.coverage);
+    veil.through /= 1.0f + 0.75f * 0.14f * depth * (1.0f + layer.weather.precipitation);
+  }
+  return veil;
+}
+
+// Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
+// top: by eye, until it is fitted to a reference.
+constexpr float kDiffusedShare = 0.3f;
+
 }  // namespace
 
 law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
@@ -37,9 +58,13 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.sun = glm::vec4(sunDirection, l.powder);
   m.ambientSky = glm::vec4(light.meanRadiance, l.ambient);
   const float sunHeight = std::max(sunDirection.z, 0.0f);
-  const glm::vec3 ground =
-      scene.ground.albedo * (0.7f * sunHeight * light.sunIrradiance + light.skyIrradiance) / 3.14159265f;
+  const Veil veil = veilOf(scene);
+  const glm::vec3 direct = sunHeight * light.sunIrradiance;
+  const glm::vec3 diffuse =
+      (1.0f - veil.cover) * light.skyIrradiance + veil.cover * veil.through * (direct + light.skyIrradiance);
+  const glm::vec3 ground = scene.ground.albedo * ((1.0f - veil.cover) * direct + diffuse) / 3.14159265f;
   m.ambientGround = glm::vec4(ground, l.groundBounce);
+  m.diffused = glm::vec4((direct + light.skyIrradiance) / 3.14159265f, kDiffusedShare * l.ambient);
   m.groundAlbedo = glm::vec4(scene.ground.albedo, drawGround ? 1.0f : 0.0f);
   m.bottom = 1e9f;
   m.top = -1e9f;
@@ -52,7 +77,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
     albedo = std::min(albedo, layer.cloud.albedo);
   }
   if (scene.layers.empty()) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
-  m.skyIrradiance = glm::vec4(light.skyIrradiance, albedo);
+  m.skyIrradiance = glm::vec4(diffuse, albedo);
+  m.airLight = veil.share();
   m.stepScale = kStepPerMetre * q.stepScale;
   m.minStep = kMinStep * std::min(q.stepScale, 1.5f);
   m.maxStep = kMaxStep;

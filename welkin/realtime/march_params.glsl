@@ -4,9 +4,10 @@ struct MarchParams {
   PlanetParams planet;
   vec4 sun;             // xyz: direction toward the sun, w: powder
   vec4 ambientSky;      // mean radiance of the sky in kcd/m^2, w: ambient gain
+  vec4 diffused;        // light that falls on the clouds, as isotropic radiance in kcd/m^2, w: share of it deep inside
   vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
   vec4 groundAlbedo;    // w: 1 when the ground is drawn
-  vec4 skyIrradiance;   // on the ground, klx; w: albedo of the droplets
+  vec4 skyIrradiance;   // on the ground, clouds counted in, klx; w: albedo of the droplets
   float bottom, top, stepScale, minStep;
   float maxStep, maxDistance, earlyExit, footprintPerMetre;
   float contribution, octaveExtinction, eccentricity, octaveGain;
@@ -14,5 +15,7 @@ struct MarchParams {
   int octaves, lightSteps, ambientSteps, refine;
   int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
   int maxTurns, groundSteps, spare0, spare1;
-  float lightRatio, spare2, spare3, spare4;  // each step toward the sun against the last
+  float lightRatio;  // each step toward the sun against the last
+  float airLight;    // share of light that reaches the air below the clouds
+  float spare2, spare3;
 };

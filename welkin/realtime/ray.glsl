@@ -29,6 +29,10 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Vec3 inscatter = Vec3(0.0f);
   Vec3 through = Vec3(1.0f);
   lookupAerial(aerialInscatter, aerialTransmittance, air, dir, r.depth, inscatter, through);
+  // The air between the camera and what it sees from below the clouds lies in their shade.
+  float airLight = 1.0f;
+  if (m.planet.altitude < m.bottom) airLight = m.airLight;
+  inscatter = inscatter * airLight;
   Real fade = 1.0f - smoothstep(0.55f * m.maxDistance, 0.98f * m.maxDistance, r.depth);
   Real opacity = (1.0f - r.transmittance) * fade;
   Vec3 radiance = (r.radiance * through) * fade + inscatter * opacity;
@@ -66,6 +70,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Vec3 lit = irradiance * lookupTransmittanceToSun(transmittance, air, Real(0.0f), dot(sun, normal));
   Vec3 surface = xyz(m.groundAlbedo) * (lit * (cosSun * max(r.ground, 0.0f)) + xyz(m.skyIrradiance)) * 0.318309886f;
   lookupAerial(aerialInscatter, aerialTransmittance, air, dir, tGround, inscatter, through);
+  inscatter = inscatter * airLight;
   radiance = select(ground, radiance + (surface * through + inscatter) * kept, radiance);
   depth = select(both(ground, depth >= m.maxDistance), tGround, depth);
   kept = select(ground, Real(0.0f), kept);
