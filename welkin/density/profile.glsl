@@ -57,10 +57,10 @@ FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(Layer
   Real ice = 0.0f;
   Real n = sample3(baseNoise, q * c.noise.w + xyz(c.noise)).x;
   if (c.hasAnvil != 0) {
-    Real flare = smoothstep(0.5f, 1.05f, w.z);
-    Real above = hb - 0.86f * c.thickness;
+    Real flare = smoothstep(0.35f, 1.0f, w.z);
+    Real above = hb - 0.76f * c.thickness;
     Real half_ = c.thickness * 0.085f * (0.15f + 0.85f * w.z);
-    Real inside = min(half_ - above, half_ + above + 0.24f * c.thickness * flare);
+    Real inside = min(half_ - above, half_ + above + 0.34f * c.thickness * flare);
     Real sheet = select(w.z > 0.0f, min(inside / (0.6f * amplitude), saturate(4.0f * w.z)), Real(-1.0f));
     ice = smoothstep(0.0f, 0.35f, sheet) * smoothstep(0.55f, 0.8f, hb / c.thickness);
     profile = smoothMax(profile, sheet, 0.3f);

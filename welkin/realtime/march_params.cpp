@@ -11,7 +11,7 @@ namespace {
 // distance.
 constexpr int kZenithSteps = 64, kHorizonSteps = 128;
 constexpr float kStepPerMetre = 0.004f, kMinStep = 12.0f, kMaxStep = 250.0f;  // look: the coarsest without hatching
-constexpr float kFar = 150000.0f;                                             // m, where clouds have faded into the air
+constexpr float kFar = 300000.0f;                                             // m, where clouds have faded into the air
 constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets; a test counts
 
 // Ratio of a geometric series of `steps` terms from kLightFirst (march.glsl) that reaches as far as 9 steps of ratio
@@ -45,7 +45,7 @@ Veil veilOf(const Scene& scene) {
 
 // Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
 // top: by eye, until it is fitted to a reference.
-constexpr float kDiffusedShare = 0.3f;
+constexpr float kDiffusedShare = 0.22f;
 
 }  // namespace
 

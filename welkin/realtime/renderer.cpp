@@ -36,8 +36,8 @@ struct LayersBlock {
 std::string fileText(const char* path) { return std::string(shaderSource(path)); }
 
 WeatherExtent weatherExtent(QualityPreset preset) {
-  if (preset == QualityPreset::low || preset == QualityPreset::medium) return {256, 4, 14000.0, 2.6};
-  return {512, 4, 20000.0, 2.6};
+  if (preset == QualityPreset::low || preset == QualityPreset::medium) return {256, 4, 14000.0, 3.0};
+  return {512, 4, 20000.0, 2.8};
 }
 
 glm::dvec3 eastNorthUp(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, -p.z, p.y); }
