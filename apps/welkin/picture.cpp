@@ -33,20 +33,20 @@ Volume weatherMap(const WeatherSettings& weather) {
   return map;
 }
 
-// The pictures that the sky names, as the renderer wants them.
-realtime::CustomTextures customTextures(const Scene& scene) {
-  realtime::CustomTextures textures;
-  textures.weatherMaps.resize(scene.layers.size());
-  for (std::size_t i = 0; i < scene.layers.size(); ++i)
-    if (!scene.layers[i].weather.map.empty()) textures.weatherMaps[i] = weatherMap(scene.layers[i].weather);
-  return textures;
-}
-
 }  // namespace
+
+std::vector<Volume> weatherMaps(const Scene& scene) {
+  std::vector<Volume> maps(scene.layers.size());
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    if (!scene.layers[i].weather.map.empty()) maps[i] = weatherMap(scene.layers[i].weather);
+  return maps;
+}
 
 Image renderSky(const Scene& scene, const RenderOptions& options) {
   realtime::Offscreen screen(options.width, options.height);
-  screen.renderer().setScene(scene, customTextures(scene));
+  realtime::CustomTextures textures;
+  textures.weatherMaps = weatherMaps(scene);
+  screen.renderer().setScene(scene, textures);
   const int interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
   const int frames = options.frames > 0 ? options.frames : kSamplesPerPixel * interleave * interleave;
   for (int i = 0; i < frames; ++i) {

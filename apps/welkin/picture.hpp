@@ -1,9 +1,11 @@
 #pragma once
 // Pictures of a sky, and the files that they go to.
 #include <string>
+#include <vector>
 
 #include "welkin/base/image.hpp"
 #include "welkin/base/progress.hpp"
+#include "welkin/noise/volume.hpp"
 #include "welkin/scene/scene.hpp"
 
 namespace welkin::app {
@@ -13,6 +15,10 @@ struct RenderOptions {
   int frames = 0;  // temporal frames that make the picture; 0 lets the quality decide
   Progress progress;
 };
+
+// The authoring map of every layer that names a picture, at the layer's index: RGBA, south row first. Throws Error
+// (badInput) for a picture that cannot be read.
+std::vector<Volume> weatherMaps(const Scene& scene);
 
 // The sky through its camera by the real-time renderer: linear RGB in kcd/m^2. Throws Error (noOpenGl).
 Image renderSky(const Scene& scene, const RenderOptions& options);

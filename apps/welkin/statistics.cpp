@@ -1,8 +1,105 @@
 #include "apps/welkin/statistics.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "apps/welkin/picture.hpp"
+
 namespace welkin::app {
 
-std::optional<CloudStatistics> layerStatistics(const Scene&, std::size_t) { return std::nullopt; }
-std::optional<CloudStatistics> sheetStatistics(const Scene&, std::size_t) { return std::nullopt; }
+namespace {
+
+constexpr int kColumnsAcross = 64;
+constexpr double kPatterns = 12.0, kFrontClusters = 4.0;
+constexpr double kSheetEdge = 200000.0;          // m; the patches of every sheet are 16 km x 9 km
+constexpr double kStep = 15.0, kThinSteps = 64;  // m; at least so many steps through a thin layer
+constexpr double kTail = 0.02;
+
+// One jittered place in each cell of a square grid.
+std::vector<glm::dvec2> stratifiedPlaces(const glm::dvec2& centre, double edge) {
+  std::vector<glm::dvec2> places;
+  std::uint32_t hash = 1;
+  const auto jitter = [&] {
+    hash = law::nextHash(hash);
+    return static_cast<double>(law::unitFromHash(hash));
+  };
+  for (int j = 0; j < kColumnsAcross; ++j)
+    for (int i = 0; i < kColumnsAcross; ++i) {
+      const double x = (i + jitter()) / kColumnsAcross - 0.5, y = (j + jitter()) / kColumnsAcross - 0.5;
+      places.push_back(centre + edge * glm::dvec2(x, y));
+    }
+  return places;
+}
+
+double areaOf(const Layer& layer) {
+  const WeatherSettings& w = layer.weather;
+  if (!w.map.empty()) return w.mapSize;
+  if (layer.cloud.shape == LayerShape::nubis) return kPatterns * layer.nubis.weatherTile / 4.0;
+  if (w.population == Population::front) return kFrontClusters * w.clusterSize;
+  return kPatterns * std::max(w.cellSize, w.clusterSize);
+}
+
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+CloudStatistics summary(const std::vector<CloudColumn>& columns, double threshold) {
+  CloudStatistics s;
+  std::vector<double> depths, bases, tops;
+  double all = 0.0, cloudy = 0.0;
+  for (const CloudColumn& column : columns) {
+    all += column.opticalDepth;
+    if (column.opticalDepth <= threshold) continue;
+    cloudy += column.opticalDepth;
+    depths.push_back(column.opticalDepth);
+    if (column.top <= column.base) continue;
+    bases.push_back(column.base);
+    tops.push_back(column.top);
+  }
+  s.meanOpticalDepth = all / static_cast<double>(columns.size());
+  s.cover = static_cast<double>(depths.size()) / static_cast<double>(columns.size());
+  if (!depths.empty()) s.cloudyOpticalDepth = cloudy / static_cast<double>(depths.size());
+  s.medianOpticalDepth = quantile(depths, 0.5);
+  s.base = quantile(bases, kTail);
+  s.top = quantile(tops, 1.0 - kTail);
+  return s;
+}
+
+}  // namespace
+
+DensityField densityField(const Scene& scene) {
+  const std::vector<Volume> maps = weatherMaps(scene);
+  return DensityField({.layers = scene.layers,
+                       .sheets = scene.sheets,
+                       .noise = scene.noise,
+                       .drift = {scene.wind.speed, scene.wind.from, scene.time},
+                       .seed = scene.seed,
+                       .weatherMaps = maps});
+}
+
+SkyStatistics measureSky(const Scene& scene) {
+  const DensityField clouds = densityField(scene);
+  const glm::dvec2 here(scene.camera.position);
+  SkyStatistics sky;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    const Layer& layer = scene.layers[i];
+    const double step = std::min(kStep, layer.cloud.thickness / kThinSteps);
+    const std::vector<glm::dvec2> places = stratifiedPlaces(here, areaOf(layer));
+    sky.layers.push_back(summary(clouds.columns(i, places, step), kCloudyLayer));
+  }
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i) {
+    const float height = scene.sheets[i].height;
+    std::vector<CloudColumn> columns;
+    for (const float depth : clouds.sheetOpticalDepth(i, stratifiedPlaces(here, kSheetEdge)))
+      columns.push_back({depth, height, height});
+    CloudStatistics s = summary(columns, kCloudySheet);
+    s.base = s.top = height;
+    sky.sheets.push_back(s);
+  }
+  return sky;
+}
 
 }  // namespace welkin::app

@@ -1,21 +1,34 @@
 #pragma once
-// What a layer or sheet amounts to, measured on the field itself.
+// What layers and sheets amount to, measured on the field itself.
 #include <cstddef>
-#include <optional>
+#include <vector>
 
+#include "welkin/density/field.hpp"
 #include "welkin/scene/scene.hpp"
 
 namespace welkin::app {
 
+// Least vertical optical depth of a column that counts as cloudy: for layers what satellites see as cloud (ISCCP,
+// Rossow and Schiffer 1999), for sheets what the eye sees (Sassen and Cho 1992).
+inline constexpr double kCloudyLayer = 0.3, kCloudySheet = 0.03;
+
 struct CloudStatistics {
-  double cover;               // share of the sky with cloud overhead, in [0, 1]
-  double base, top;           // m, of what is there: lowest base and highest top
-  double meanOpticalDepth;    // vertical, over the whole area
-  double medianOpticalDepth;  // vertical, over the cloudy columns
+  double cover = 0.0;               // share of the sky with cloudy columns, in [0, 1]
+  double base = 0.0, top = 0.0;     // m; 2 % of the cloudy columns begin lower, 2 % end higher
+  double meanOpticalDepth = 0.0;    // vertical, over the whole area
+  double cloudyOpticalDepth = 0.0;  // mean over the cloudy columns
+  double medianOpticalDepth = 0.0;  // over the cloudy columns
 };
 
-// Over columns spread across several of the layer's clusters at the scene's time; empty when this build cannot measure.
-std::optional<CloudStatistics> layerStatistics(const Scene& scene, std::size_t layer);
-std::optional<CloudStatistics> sheetStatistics(const Scene& scene, std::size_t sheet);
+struct SkyStatistics {
+  std::vector<CloudStatistics> layers, sheets;
+};
+
+// Over a few thousand stratified columns at the scene's time. They cover twelve of a layer's largest patterns in each
+// direction round the camera; a front, which stands in one place, four cluster sizes; a picture, what it covers.
+SkyStatistics measureSky(const Scene& scene);
+
+// The scene's clouds with the pictures that it names. Throws Error (badInput) for a picture that cannot be read.
+DensityField densityField(const Scene& scene);
 
 }  // namespace welkin::app

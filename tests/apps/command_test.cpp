@@ -146,11 +146,24 @@ TEST(Command, InfoDescribesEveryLayerAndSheet) {
   ASSERT_EQ(report["sheets"].size(), 1u);
   EXPECT_EQ(report["sheets"][0]["genus"], "cirrostratus");
   EXPECT_EQ(report["sheets"][0]["configured_height"], 8000);
+  EXPECT_GT(report["sheets"][0]["cover"], 0.0);
+  EXPECT_GT(report["sheets"][0]["mean_optical_depth"], 0.0);
   std::filesystem::remove(file);
   const json plain = json::parse(run("info --json").out);
   ASSERT_EQ(plain["layers"].size(), 1u);
   EXPECT_EQ(plain["layers"][0]["genus"], "cumulus");
-  EXPECT_EQ(run("info").out.rfind("layer 0  cumulus", 0), 0u);
+  const json& layer = plain["layers"][0];
+  const double cover = layer["cover"], mean = layer["mean_optical_depth"], cloudy = layer["cloudy_optical_depth"];
+  EXPECT_GT(cover, 0.05);
+  EXPECT_LT(cover, 0.95);
+  // What stands outside the cloudy columns adds at most the threshold.
+  EXPECT_NEAR(mean, cover * cloudy, 0.3 + 1e-3 * mean);
+  EXPECT_GT(layer["median_optical_depth"], 0.3);
+  EXPECT_NEAR(layer["base"], layer["configured_base"], 150.0);
+  EXPECT_LT(layer["base"], layer["top"]);
+  EXPECT_NE(run("info").out.find("layer 0  cumulus"), std::string::npos);
+  const json clear = json::parse(run("info --json --set layer.extinction=0").out);
+  EXPECT_EQ(clear["layers"][0]["cover"], 0.0);
 }
 
 TEST(Command, DoctorReportsTheDriver) {
