@@ -1,0 +1,98 @@
+// The weather that the GPU draws into its clip levels is the CPU's.
+#include "welkin/realtime/weather_levels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "welkin/density/weather_map.hpp"
+#include "welkin/gl/context.hpp"
+#include "welkin/realtime/noise_textures.hpp"
+#include "welkin/realtime/shader_sources.hpp"
+
+namespace welkin::realtime {
+namespace {
+
+constexpr WeatherExtent kExtent{.texels = 64, .levels = 3, .finest = 16000.0, .ratio = 2.5};
+
+using Case = std::tuple<LayerShape, Population, bool>;
+class WeatherOnTheGpu : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override { gl_ = gl::loadApi(context_.loader()); }
+
+  Layer layer() const {
+    Layer l;
+    l.cloud.shape = std::get<0>(GetParam());
+    l.weather.population = std::get<1>(GetParam());
+    l.weather.precipitation = 0.5f;
+    if (std::get<2>(GetParam())) l.weather.map = "picture.png";
+    return l;
+  }
+
+  // Both textures' channels of one slice, as the law's texel has them.
+  std::vector<float> read(const WeatherLevels& levels, int slice) {
+    const std::size_t count = static_cast<std::size_t>(kExtent.texels) * kExtent.texels;
+    std::vector<float> texels(4 * count), half(4 * count);
+    gl::Framebuffer framebuffer(gl_);
+    for (std::size_t part = 0; part < 2; ++part) {
+      const gl::Texture* targets[] = {part == 0 ? &levels.main() : &levels.extra()};
+      framebuffer.target(targets, slice);
+      gl_.ReadPixels(0, 0, kExtent.texels, kExtent.texels, GL_RGBA, GL_FLOAT, half.data());
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < 2; ++c) texels[4 * i + 2 * part + c] = half[4 * i + c];
+    }
+    return texels;
+  }
+
+  gl::Context context_;
+  gl::Api gl_;
+};
+
+// Heights to 2e-3 of the thickness (the rims of domes, as in the parity cases), shares to 2e-3, beyond a half float's
+// own rounding.
+TEST_P(WeatherOnTheGpu, IsTheCpus) {
+  const gl::Program program(gl_, "weather", "", std::string(shaderSource("welkin/realtime/shaders/weather.frag.glsl")),
+                            shaderSource);
+  const Layer l = layer();
+  Volume map(8, 8, 1, 4);
+  for (std::size_t i = 0; i < map.texels.size(); ++i) map.texels[i] = static_cast<float>((i * 7) % 11) / 10.0f;
+  roundToHalf(map);
+  const gl::Texture picture = textureFromVolume(gl_, map);
+  WeatherLevels levels(gl_, kExtent, 1);
+  gl::Framebuffer framebuffer(gl_);
+  gl::UniformBuffer buffer(gl_);
+  const gl::VertexArray triangle(gl_);
+  gl_.BindVertexArray(triangle.id());
+  const Drift drift{11.0f, 2.0f, 0.0};
+  const glm::dvec2 position(123456.0, -65432.0);
+  ASSERT_EQ(levels.update(0, l, position, drift, 5, program, framebuffer, buffer, picture), kExtent.levels);
+  for (int level = 0; level < kExtent.levels; ++level) {
+    const double edge = kExtent.finest * std::pow(kExtent.ratio, level), texel = edge / kExtent.texels;
+    const Volume expected = bakeWeather(l, glm::floor(position / texel) * texel, edge, kExtent.texels, drift, 5, &map);
+    const std::vector<float> found = read(levels, level);
+    ASSERT_EQ(found.size(), expected.texels.size());
+    double most = 0.0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const bool metres = l.cloud.shape == LayerShape::profile ? i % 4 < 2 : i % 4 == 3;
+      const double rounding = std::abs(expected.texels[i]) / 1024.0 + 1e-4;
+      most = std::max(most, (std::abs(found[i] - expected.texels[i]) - rounding) / (metres ? l.cloud.thickness : 1.0));
+    }
+    EXPECT_LE(most, 2e-3) << level;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Layers, WeatherOnTheGpu,
+                         testing::Values(Case{LayerShape::profile, Population::clusters, false},
+                                         Case{LayerShape::profile, Population::domes, true},
+                                         Case{LayerShape::profile, Population::cells, false},
+                                         Case{LayerShape::profile, Population::front, false},
+                                         Case{LayerShape::profile, Population::uniform, false},
+                                         Case{LayerShape::nubis, Population::clusters, false},
+                                         Case{LayerShape::nubis, Population::clusters, true}));
+
+}  // namespace
+}  // namespace welkin::realtime
