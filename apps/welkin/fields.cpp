@@ -80,17 +80,45 @@ void printText(const std::vector<Section>& sections) {
   }
 }
 
+// A bar would end a cell of a Markdown table.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? "\\|" : std::string(1, c);
+  return out;
+}
+
+// What docs/fields.md holds.
+void printMarkdown(const std::vector<Section>& sections) {
+  fmt::print("# Parameters of a sky\n\nMade by `scripts/write_fields`; do not edit.\n");
+  for (const Section& section : sections) {
+    const std::string table = tableName(section.path);
+    fmt::print("\n## {}\n\n{}\n\n", table.empty() ? "top level" : "`" + table + "`", section.help);
+    fmt::print("| name | default | range | unit | meaning |\n|---|---|---|---|---|\n");
+    for (const Field& f : section.fields) {
+      const std::string range = hasRange(f) && f.allowed.empty() ? fmt::format("{:g} to {:g}", f.hard.low, f.hard.high)
+                                : f.kind == FieldKind::choice || !f.allowed.empty() ? escaped(limits(f))
+                                                                                    : kindName(f.kind);
+      fmt::print("| `{}` | `{}` | {} | {} | {} |\n", f.name, formatValue(f, f.defaultValue), range, f.unit.symbol,
+                 escaped(f.help));
+    }
+  }
+}
+
 }  // namespace
 
 void addFields(CLI::App& app) {
   auto* command = app.add_subcommand("fields", "every parameter of a sky with unit, default, range and help");
   const auto json = addJsonFlag(*command);
-  command->callback([json] {
+  const auto markdown = std::make_shared<bool>(false);
+  command->add_flag("--markdown", *markdown, "print tables for a page of documentation");
+  command->callback([json, markdown] {
     Scene scene;
     scene.sheets.emplace_back();
     const std::vector<Section> sections = sectionsOf(scene);
     if (*json)
       printJson(sections);
+    else if (*markdown)
+      printMarkdown(sections);
     else
       printText(sections);
   });

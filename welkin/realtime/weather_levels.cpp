@@ -13,7 +13,7 @@ WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int
                                       layers * extent.levels, gl::Filter::linear, gl::Addressing::clamp, nullptr),
       extra_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels,
              gl::Filter::linear, gl::Addressing::clamp, nullptr),
-      levels_(static_cast<std::size_t>(layers * extent.levels)) {}
+      levels_(static_cast<std::size_t>(layers) * static_cast<std::size_t>(extent.levels)) {}
 
 double WeatherLevels::edge(int level) const { return extent_.finest * std::pow(extent_.ratio, level); }
 

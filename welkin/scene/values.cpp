@@ -101,7 +101,7 @@ std::string shortest(const Field& field, double value) {
     const std::string text = fmt::format("{:.{}g}", value, digits);
     double read = 0;
     std::from_chars(text.data(), text.data() + text.size(), read);
-    if (same(read)) return withPoint(text);
+    if (same(read)) return withPoint(fmt::format("{}", read));  // 300.0 rather than 3e+02
   }
   return withPoint(fmt::format("{:.17g}", value));
 }
