@@ -42,7 +42,7 @@ int main(int argc, char** argv) try {
   welkin::realtime::CustomTextures textures;
   textures.profileBase = bubbles(64, 4);
 
-  welkin::realtime::Offscreen screen(640, 360);
+  welkin::realtime::Offscreen screen(480, 270);
   screen.renderer().setScene(scene, textures);
   for (int frame = 0; frame < 4; ++frame) screen.draw(scene, 0.0);
   const welkin::Image light = screen.read();

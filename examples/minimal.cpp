@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   welkin::Scene scene = argc > 2 ? welkin::loadSky(argv[2]) : welkin::Scene{};
   scene.quality = welkin::qualityPreset(welkin::QualityPreset::ultra);
 
-  welkin::realtime::Offscreen screen(640, 360);
+  welkin::realtime::Offscreen screen(480, 270);
   screen.renderer().setScene(scene);
   for (int frame = 0; frame < 4; ++frame) screen.draw(scene, 0.0);  // each frame makes the picture cleaner
   const welkin::Image light = screen.read();                        // linear Rec.709 in kcd/m^2
