@@ -51,6 +51,8 @@ void addPresets(CLI::App& app);
 void addFields(CLI::App& app);
 void addCheck(CLI::App& app);
 void addInfo(CLI::App& app);
+void addNoise(CLI::App& app);
+void addWeather(CLI::App& app);
 void addDoctor(CLI::App& app);
 
 }  // namespace welkin::app

@@ -55,6 +55,8 @@ int run(int argc, char** argv) {
   addFields(app);
   addCheck(app);
   addInfo(app);
+  addNoise(app);
+  addWeather(app);
   addDoctor(app);
   try {
     app.parse(argc, argv);

@@ -1,6 +1,8 @@
 #include "welkin/realtime/noise_textures.hpp"
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "welkin/base/error.hpp"
 #include "welkin/noise/params.hpp"
@@ -108,6 +110,23 @@ gl::Texture textureFromVolume(const gl::Api& gl, Volume volume) {
   std::vector<float> four(volume.texels.size() / 3 * 4, 1.0f);
   for (std::size_t i = 0; i < volume.texels.size(); ++i) four[i / 3 * 4 + i % 3] = volume.texels[i];
   return make(gl::kRgba16F, four.data());
+}
+
+Volume volumeFromTexture(const gl::Api& gl, const gl::Texture& texture, int channels) {
+  Volume volume(texture.width(), texture.height(), std::max(texture.depth(), 1), channels);
+  const std::size_t count = static_cast<std::size_t>(volume.width) * volume.height;
+  std::vector<float> slice(4 * count);
+  gl::Framebuffer framebuffer(gl);
+  const gl::Texture* targets[] = {&texture};
+  auto out = volume.texels.begin();
+  for (int z = 0; z < volume.depth; ++z) {
+    framebuffer.target(targets, z);
+    gl.ReadPixels(0, 0, volume.width, volume.height, GL_RGBA, GL_FLOAT, slice.data());
+    for (std::size_t i = 0; i < count; ++i)
+      out = std::copy_n(slice.begin() + static_cast<std::ptrdiff_t>(4 * i), channels, out);
+  }
+  gl.check("reading a texture");
+  return volume;
 }
 
 }  // namespace welkin::realtime

@@ -24,4 +24,7 @@ gl::Texture generateProfileWarp(const gl::Api& gl, const ProfileNoiseSettings& s
 // nearest even, because drivers differ (Mesa cuts).
 gl::Texture textureFromVolume(const gl::Api& gl, Volume volume);
 
+// The first `channels` channels of a float texture, waiting for the driver to finish it.
+Volume volumeFromTexture(const gl::Api& gl, const gl::Texture& texture, int channels);
+
 }  // namespace welkin::realtime
