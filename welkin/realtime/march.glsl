@@ -212,7 +212,10 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   r.radiance = radiance;
   r.transmittance = select(transmittance < m.earlyExit, Real(0.0f), transmittance);
   r.depth = select(depthWeight > 1e-4f, depthSum / max(depthWeight, 1e-4f), Real(m.maxDistance));
-  r.ground = select(drawGround, exp(-min(groundTau, 40.0f)), Real(-1.0f));
+  // Direct light, and what the cloud scatters down (two-stream, g = 0.86), of which about half falls elsewhere.
+  Real direct = exp(-min(groundTau, 40.0f));
+  Real lit = direct + 0.5f * (1.0f - direct) / (1.0f + 0.105f * groundTau);
+  r.ground = select(drawGround, lit, Real(-1.0f));
   r.groundDepth = tGround;
   r.samples = samples;
   return r;

@@ -97,7 +97,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.ambientSteps = q.ambientSteps;
   m.refine = q.refine ? 1 : 0;
   m.maxTurns = kMaxTurns;
-  m.groundSteps = 16;
+  m.groundSteps = 32;
   m.lightRatio = lightRatio(q.lightSteps);
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;
