@@ -10,7 +10,8 @@ namespace welkin::gl {
 // clang-format off
 #define WELKIN_GL_FUNCTIONS(F) \
   F(ACTIVETEXTURE, ActiveTexture) F(ATTACHSHADER, AttachShader) F(BINDATTRIBLOCATION, BindAttribLocation) \
-  F(BINDBUFFER, BindBuffer) F(BINDBUFFERBASE, BindBufferBase) F(BINDFRAMEBUFFER, BindFramebuffer) \
+  F(BINDBUFFER, BindBuffer) F(BINDBUFFERBASE, BindBufferBase) F(BINDBUFFERRANGE, BindBufferRange) \
+  F(BINDFRAMEBUFFER, BindFramebuffer) \
   F(BINDSAMPLER, BindSampler) F(BINDTEXTURE, BindTexture) F(BINDVERTEXARRAY, BindVertexArray) \
   F(BLENDEQUATIONSEPARATE, BlendEquationSeparate) F(BLENDFUNCSEPARATE, BlendFuncSeparate) \
   F(BLITFRAMEBUFFER, BlitFramebuffer) F(BUFFERDATA, BufferData) F(BUFFERSUBDATA, BufferSubData) \
@@ -50,8 +51,8 @@ struct Api {
   WELKIN_GL_FUNCTIONS(WELKIN_GL_MEMBER)
   WELKIN_GL_OPTIONAL_FUNCTIONS(WELKIN_GL_MEMBER)
 #undef WELKIN_GL_MEMBER
-  bool es = false;           // an OpenGL ES context
-  int major = 0, minor = 0;  // its version
+  bool es = false;                 // an OpenGL ES context
+  int major = 0, minor = 0;        // its version
 
   bool hasExtension(const char* name) const;
   // Throws Error (failed) naming `doing` when OpenGL has recorded an error.

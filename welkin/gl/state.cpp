@@ -18,6 +18,22 @@ constexpr std::array<Toggle, 9> kToggleNames{{{GL_BLEND, false},
                                               {GL_COLOR_LOGIC_OP, true},
                                               {GL_MULTISAMPLE, true}}};
 
+// Pixel store and the value that tightly packed floats and bytes need.
+struct Store {
+  GLenum name;
+  GLint value;
+};
+constexpr std::array<Store, 10> kStoreNames{{{GL_UNPACK_ALIGNMENT, 4},
+                                             {GL_UNPACK_ROW_LENGTH, 0},
+                                             {GL_UNPACK_SKIP_ROWS, 0},
+                                             {GL_UNPACK_SKIP_PIXELS, 0},
+                                             {GL_UNPACK_IMAGE_HEIGHT, 0},
+                                             {GL_UNPACK_SKIP_IMAGES, 0},
+                                             {GL_PACK_ALIGNMENT, 4},
+                                             {GL_PACK_ROW_LENGTH, 0},
+                                             {GL_PACK_SKIP_ROWS, 0},
+                                             {GL_PACK_SKIP_PIXELS, 0}}};
+
 }  // namespace
 
 StateGuard::StateGuard(const Api& gl) : gl_(gl) {
@@ -27,7 +43,14 @@ StateGuard::StateGuard(const Api& gl) : gl_(gl) {
   gl.GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &readFramebuffer_);
   gl.GetIntegerv(GL_ACTIVE_TEXTURE, &activeTexture_);
   gl.GetIntegerv(GL_UNIFORM_BUFFER_BINDING, &uniformBuffer_);
-  gl.GetIntegerv(GL_UNPACK_ALIGNMENT, &unpackAlignment_);
+  gl.GetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &packBuffer_);
+  gl.GetIntegerv(GL_PIXEL_UNPACK_BUFFER_BINDING, &unpackBuffer_);
+  gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+  gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  for (std::size_t i = 0; i < kStoreNames.size(); ++i) {
+    gl.GetIntegerv(kStoreNames[i].name, &stores_[i]);
+    gl.PixelStorei(kStoreNames[i].name, kStoreNames[i].value);
+  }
   gl.GetIntegerv(GL_VIEWPORT, viewport_.data());
   gl.GetIntegerv(GL_SCISSOR_BOX, scissor_.data());
   gl.GetIntegerv(GL_BLEND_SRC_RGB, &blend_[0]);
@@ -39,8 +62,11 @@ StateGuard::StateGuard(const Api& gl) : gl_(gl) {
   gl.GetBooleanv(GL_COLOR_WRITEMASK, colourMask_.data());
   gl.GetBooleanv(GL_DEPTH_WRITEMASK, &depthMask_);
   if (!gl.es && gl.PolygonMode) gl.GetIntegerv(GL_POLYGON_MODE, polygonMode_.data());
-  for (int i = 0; i < kBuffers; ++i)
-    gl.GetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, static_cast<GLuint>(i), &buffers_[static_cast<std::size_t>(i)]);
+  for (GLuint i = 0; i < kBuffers; ++i) {
+    gl.GetIntegeri_v(GL_UNIFORM_BUFFER_BINDING, i, &buffers_[i].name);
+    gl.GetIntegeri_v(GL_UNIFORM_BUFFER_START, i, &buffers_[i].start);
+    gl.GetIntegeri_v(GL_UNIFORM_BUFFER_SIZE, i, &buffers_[i].size);
+  }
   for (int i = 0; i < kUnits; ++i) {
     Unit& unit = units_[static_cast<std::size_t>(i)];
     gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
@@ -70,8 +96,13 @@ StateGuard::~StateGuard() {
     gl_.BindTexture(GL_TEXTURE_2D_ARRAY, unsignedOf(unit.array));
     gl_.BindSampler(unsignedOf(i), unsignedOf(unit.sampler));
   }
-  for (int i = 0; i < kBuffers; ++i)
-    gl_.BindBufferBase(GL_UNIFORM_BUFFER, unsignedOf(i), unsignedOf(buffers_[static_cast<std::size_t>(i)]));
+  for (GLuint i = 0; i < kBuffers; ++i) {
+    const Buffer& b = buffers_[i];
+    if (b.name != 0 && b.size > 0)
+      gl_.BindBufferRange(GL_UNIFORM_BUFFER, i, unsignedOf(b.name), b.start, b.size);
+    else
+      gl_.BindBufferBase(GL_UNIFORM_BUFFER, i, unsignedOf(b.name));
+  }
   gl_.BindBuffer(GL_UNIFORM_BUFFER, unsignedOf(uniformBuffer_));
   for (std::size_t i = 0; i < kToggleNames.size(); ++i) {
     if (gl_.es && kToggleNames[i].desktopOnly) continue;
@@ -86,7 +117,9 @@ StateGuard::~StateGuard() {
   gl_.ColorMask(colourMask_[0], colourMask_[1], colourMask_[2], colourMask_[3]);
   gl_.DepthMask(depthMask_);
   if (!gl_.es && gl_.PolygonMode) gl_.PolygonMode(GL_FRONT_AND_BACK, enumOf(polygonMode_[0]));
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, unpackAlignment_);
+  for (std::size_t i = 0; i < kStoreNames.size(); ++i) gl_.PixelStorei(kStoreNames[i].name, stores_[i]);
+  gl_.BindBuffer(GL_PIXEL_PACK_BUFFER, unsignedOf(packBuffer_));
+  gl_.BindBuffer(GL_PIXEL_UNPACK_BUFFER, unsignedOf(unpackBuffer_));
   gl_.ActiveTexture(enumOf(activeTexture_));
   gl_.Viewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
   gl_.Scissor(scissor_[0], scissor_[1], scissor_[2], scissor_[3]);

@@ -8,8 +8,9 @@ namespace welkin::gl {
 
 // Records on construction, restores on destruction: program, vertex array, framebuffers, viewport, scissor, colour and
 // depth masks, blending, culling, depth, stencil, polygon mode, sRGB writes, active texture, textures and samplers of
-// units 0 to 15, uniform buffers 0 to 7, unpack alignment. In between the state is what full-screen passes need: all
-// tests, blending and culling off, samplers unbound.
+// units 0 to 15, uniform buffers 0 to 7 with their ranges, pixel store and pixel buffers. In between the state is what
+// full-screen passes need: all tests, blending and culling off, samplers and pixel buffers unbound, pixels tightly
+// packed.
 class StateGuard {
  public:
   explicit StateGuard(const Api& gl);
@@ -18,16 +19,21 @@ class StateGuard {
   StateGuard& operator=(const StateGuard&) = delete;
 
  private:
-  static constexpr int kUnits = 16, kBuffers = 8, kToggles = 9;
+  static constexpr int kUnits = 16, kBuffers = 8, kToggles = 9, kStores = 10;
   struct Unit {
     GLint plane, volume, array, sampler;
   };
+  struct Buffer {
+    GLint name, start, size;
+  };
   const Api& gl_;
-  GLint program_, vertexArray_, drawFramebuffer_, readFramebuffer_, activeTexture_, uniformBuffer_, unpackAlignment_;
+  GLint program_, vertexArray_, drawFramebuffer_, readFramebuffer_, activeTexture_, uniformBuffer_, packBuffer_,
+      unpackBuffer_;
   std::array<GLint, 4> viewport_, scissor_;
   std::array<GLint, 6> blend_;
   std::array<GLint, 2> polygonMode_{};
-  std::array<GLint, kBuffers> buffers_;
+  std::array<Buffer, kBuffers> buffers_;
+  std::array<GLint, kStores> stores_;
   std::array<Unit, kUnits> units_;
   std::array<GLboolean, kToggles> toggles_;
   std::array<GLboolean, 4> colourMask_;
