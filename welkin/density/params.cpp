@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "welkin/base/error.hpp"
 
@@ -37,6 +38,11 @@ law::Lattice square(const glm::dvec2& anchor, double size) { return lattice(anch
 glm::vec4 noiseOrigin(const glm::dvec3& origin, double tile) {
   return {static_cast<float>(wrapped(origin.x / tile)), static_cast<float>(wrapped(origin.y / tile)),
           static_cast<float>(wrapped(origin.z / tile)), static_cast<float>(1.0 / tile)};
+}
+
+// 24 bits, since the law multiplies its seeds.
+int mixedSeed(int scene, int part) {
+  return static_cast<int>((static_cast<std::uint32_t>(scene) * 7919u + static_cast<std::uint32_t>(part)) & 0xFFFFFFu);
 }
 
 // Chance of a cloud in a cell of the largest class for which the expected cover equals `coverage`. Discs of class c
@@ -146,7 +152,9 @@ law::WeatherParams weatherParams(const Layer& layer, const glm::dvec2& worldAnch
   p.anvil = s.anvil;
   p.falloff = std::exp2(-(3.0f - s.sizeExponent));
   p.probability = chanceForCoverage(s.coverage, p.falloff);
-  p.clustering = s.clustering;
+  // Single domes are scattered evenly; the other populations gather.
+  const bool gathers = layer.cloud.shape == LayerShape::nubis || s.population != Population::domes;
+  p.clustering = gathers ? s.clustering : 0.0f;
   p.roughness = s.roughness;
   p.thickness = layer.cloud.thickness;
   p.baseVariation = layer.profile.baseVariation;
@@ -159,7 +167,7 @@ law::WeatherParams weatherParams(const Layer& layer, const glm::dvec2& worldAnch
   p.downwindY = -std::cos(drift.windFrom);
   p.population = static_cast<int>(s.population);
   p.useMap = s.map.empty() ? 0 : 1;
-  p.seed = (seed * 7919 + layer.cloud.seed) & 0xFFFFFF;
+  p.seed = mixedSeed(seed, layer.cloud.seed);
   if (layer.cloud.shape == LayerShape::nubis) {
     p.clusters = square(anchor, layer.nubis.weatherTile / 4.0);
     p.cells = square(anchor, layer.nubis.weatherTile / 16.0);
@@ -178,7 +186,7 @@ law::SheetParams sheetParams(const Sheet& sheet, const glm::dvec2& worldAnchor, 
   p.patches = lattice(anchor, 16000.0, 9000.0, sheet.orientation);
   p.bend = square(anchor, 14000.0);
   p.kind = static_cast<int>(sheet.kind);
-  p.seed = (seed * 7919 + sheet.seed) & 0xFFFFFF;
+  p.seed = mixedSeed(seed, sheet.seed);
   return p;
 }
 
@@ -186,8 +194,16 @@ Shell shellOf(const Layer& layer) {
   const CloudLayer& cloud = layer.cloud;
   if (cloud.shape == LayerShape::nubis) return {cloud.base, cloud.base + cloud.thickness + layer.weather.mapBaseRange};
   const float shift = layer.profile.baseVariation + layer.profile.baseRagged;
-  // Type and the variation of closed sheets raise tops by up to 40 %; erosion only removes.
-  const float top = cloud.thickness * 1.45f;
+  // What the law's height fields reach: type raises tops by up to 40 %, closed cells vary by another 25 %, fronts by 15
+  // %, sheets reach 1.45 by themselves. Erosion removes; fine noise adds up to half its depth, and so does the smooth
+  // joint of tower and anvil.
+  const float type = layer.weather.map.empty() ? layer.weather.type : 1.0f;
+  const float tall = 0.6f + 0.8f * type;
+  const float vary = layer.weather.population == Population::cells   ? 1.25f * tall
+                     : layer.weather.population == Population::front ? 1.15f * tall
+                                                                     : tall;
+  const float joint = layer.weather.anvil > 0.0f ? 0.075f * layer.profile.lengthScale : 0.0f;
+  const float top = cloud.thickness * std::max(vary, 1.45f) + 0.5f * layer.profile.fineDetail + joint;
   return {std::max(cloud.base - shift, 0.0f), cloud.base + top + shift + layer.weather.mapBaseRange};
 }
 
