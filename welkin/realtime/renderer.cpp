@@ -35,11 +35,6 @@ struct LayersBlock {
 
 std::string fileText(const char* path) { return std::string(shaderSource(path)); }
 
-WeatherExtent weatherExtent(QualityPreset preset) {
-  if (preset == QualityPreset::low || preset == QualityPreset::medium) return {256, 4, 14000.0, 3.0};
-  return {512, 4, 20000.0, 2.8};
-}
-
 glm::dvec3 eastNorthUp(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, -p.z, p.y); }
 
 }  // namespace
@@ -51,6 +46,7 @@ struct View::State {
   int current = 0;  // history that was written last
   int frames = 0;   // since the last reset
   int still = 0;    // frames since anything moved
+  int scene = 0;    // which of the renderer's scenes it shows
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
   double lastTime = 0.0;
@@ -63,6 +59,7 @@ View& View::operator=(View&&) noexcept = default;
 void View::reset() {
   state_->frames = 0;
   state_->still = 0;
+  state_->last.reset();
 }
 
 struct Renderer::State {
@@ -74,6 +71,7 @@ struct Renderer::State {
   Timers timers;
   Scene scene;
   bool hasScene = false;
+  int sceneNumber = 0;
   glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};
   gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
   std::vector<gl::Texture> maps;
@@ -83,7 +81,7 @@ struct Renderer::State {
   float billowMix = 0.75f;
   bool counting = false, customised = false;
   std::shared_ptr<const SkyModel> userSky;
-  double samples = 0.0, rays = 0.0;
+  double samples = 0.0, mostSamples = 0.0, rays = 0.0;
 
   explicit State(const gl::Loader& loader)
       : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
@@ -195,6 +193,7 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.userSky = textures.sky;
   s.scene = scene;
   s.hasScene = true;
+  ++s.sceneNumber;
   s.makeMarch();
 }
 
@@ -240,6 +239,7 @@ void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
   view.height = height;
   view.interleave = interleave;
   view.frames = view.still = 0;
+  view.last.reset();
 }
 
 void Renderer::State::skyPass(const glm::dvec3& position) {
@@ -303,8 +303,11 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
   std::vector<float> counts(static_cast<std::size_t>(view.samples.width()) * view.samples.height());
   gl.ReadBuffer(GL_COLOR_ATTACHMENT2);
   gl.ReadPixels(0, 0, view.samples.width(), view.samples.height(), GL_RED, GL_FLOAT, counts.data());
-  samples = 0.0;
-  for (const float c : counts) samples += c;
+  samples = mostSamples = 0.0;
+  for (const double c : counts) {
+    samples += c;
+    mostSamples = std::max(mostSamples, c);
+  }
   rays = static_cast<double>(counts.size());
 }
 
@@ -355,7 +358,8 @@ void Renderer::render(View& view, const Frame& frame) {
   const Drift drift{s.scene.wind.speed, s.scene.wind.from, frame.time};
 
   FrameParams params = frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
-  const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != position || v.lastTime != frame.time;
+  const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != position || v.lastTime != frame.time ||
+                     v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
   const int round = v.still / (v.interleave * v.interleave);
   const bool valid = v.frames > 0 && s.scene.quality.reprojection;
@@ -380,6 +384,7 @@ void Renderer::render(View& view, const Frame& frame) {
   v.last = params;
   v.lastPosition = position;
   v.lastTime = frame.time;
+  v.scene = s.sceneNumber;
   ++v.frames;
 }
 
@@ -395,6 +400,7 @@ FrameCost Renderer::lastCost() {
   FrameCost cost;
   for (const PassTime& pass : state_->timers.read()) cost.passes.push_back({pass.name, pass.milliseconds});
   cost.densitySamples = state_->counting ? state_->samples : 0.0;
+  cost.mostSamples = state_->counting ? state_->mostSamples : 0.0;
   cost.rays = state_->counting ? state_->rays : 0.0;
   return cost;
 }

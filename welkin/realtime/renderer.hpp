@@ -61,6 +61,7 @@ struct PassCost {
 struct FrameCost {
   std::vector<PassCost> passes;
   double densitySamples = 0.0;  // in all; only while counting
+  double mostSamples = 0.0;     // of one ray
   double rays = 0.0;
 };
 struct MemoryRow {

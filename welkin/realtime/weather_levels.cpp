@@ -8,14 +8,30 @@ namespace {
 constexpr double kLeash = 0.08;  // share of a level's edge that the camera may move before it is drawn again
 }
 
+double WeatherExtent::edge(int level) const { return finest * std::pow(ratio, level); }
+
+WeatherExtent weatherExtent(QualityPreset preset) {
+  if (preset == QualityPreset::low || preset == QualityPreset::medium) return {256, 4, 14000.0, 3.0};
+  return {512, 4, 20000.0, 2.8};
+}
+
+glm::dvec2 levelCentre(const WeatherExtent& extent, int level, const glm::dvec2& inAir) {
+  const double texel = extent.edge(level) / extent.texels;
+  return glm::floor(inAir / texel) * texel;
+}
+
+law::ClipLevel clipLevel(const WeatherExtent& extent, int level, const glm::dvec2& away) {
+  const double edge = extent.edge(level);
+  return {static_cast<float>(away.x / edge + 0.5), static_cast<float>(away.y / edge + 0.5),
+          static_cast<float>(1.0 / edge), 1.0f / static_cast<float>(extent.texels) + 0.01f};
+}
+
 WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers)
     : gl_(gl), extent_(extent), main_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels,
                                       layers * extent.levels, gl::Filter::linear, gl::Addressing::clamp, nullptr),
       extra_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels,
              gl::Filter::linear, gl::Addressing::clamp, nullptr),
       levels_(static_cast<std::size_t>(layers) * static_cast<std::size_t>(extent.levels)) {}
-
-double WeatherLevels::edge(int level) const { return extent_.finest * std::pow(extent_.ratio, level); }
 
 int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
                           const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
@@ -26,9 +42,8 @@ int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& posit
     const int slice = index * extent_.levels + level;
     Level& cached = levels_[static_cast<std::size_t>(slice)];
     const glm::dvec2 away = glm::abs(inAir - cached.centre);
-    if (cached.fresh && std::max(away.x, away.y) < kLeash * edge(level)) continue;
-    const double texel = edge(level) / extent_.texels;
-    cached.centre = glm::floor(inAir / texel) * texel;
+    if (cached.fresh && std::max(away.x, away.y) < kLeash * extent_.edge(level)) continue;
+    cached.centre = levelCentre(extent_, level, inAir);
     // Drawn with the level's centre as anchor, in still air.
     const law::WeatherParams params =
         weatherParams(layer, cached.centre, Drift{drift.windSpeed, drift.windFrom, 0.0}, seed);
@@ -39,7 +54,7 @@ int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& posit
     gl_.ActiveTexture(GL_TEXTURE0);
     gl_.BindTexture(GL_TEXTURE_2D, map.id());
     gl_.Uniform1i(program.uniform("uMap"), 0);
-    gl_.Uniform4f(program.uniform("uLevel"), 0.0f, 0.0f, static_cast<float>(edge(level)),
+    gl_.Uniform4f(program.uniform("uLevel"), 0.0f, 0.0f, static_cast<float>(extent_.edge(level)),
                   layer.cloud.shape == LayerShape::nubis ? 1.0f : 0.0f);
     const gl::Texture* targets[] = {&main_, &extra_};
     framebuffer.target(targets, slice);
@@ -58,9 +73,7 @@ law::ClipParams WeatherLevels::params(int index, const glm::dvec2& position, con
   clip.firstSlice = static_cast<float>(index * extent_.levels);
   for (int level = 0; level < extent_.levels; ++level) {
     const Level& cached = levels_[static_cast<std::size_t>(index * extent_.levels + level)];
-    const glm::dvec2 offset = (inAir - cached.centre) / edge(level) + 0.5;
-    *levels[level] = {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(1.0 / edge(level)),
-                      1.0f / static_cast<float>(extent_.texels) + 0.01f};
+    *levels[level] = clipLevel(extent_, level, inAir - cached.centre);
   }
   return clip;
 }

@@ -6,6 +6,7 @@
 
 #include "welkin/density/params.hpp"
 #include "welkin/gl/objects.hpp"
+#include "welkin/scene/quality.hpp"
 
 namespace welkin::realtime {
 
@@ -15,7 +16,16 @@ struct WeatherExtent {
   int levels = 4;
   double finest = 20000.0;  // m, edge of level 0
   double ratio = 2.6;       // each level against the one before
+
+  double edge(int level) const;  // m
 };
+WeatherExtent weatherExtent(QualityPreset preset);
+
+// Where a level is centred when it is drawn for a camera at `inAir` (m, in the air's own frame): on a texel's corner.
+glm::dvec2 levelCentre(const WeatherExtent& extent, int level, const glm::dvec2& inAir);
+
+// The law's view of a level from a camera `away` from its centre.
+law::ClipLevel clipLevel(const WeatherExtent& extent, int level, const glm::dvec2& away);
 
 class WeatherLevels {
  public:
@@ -38,7 +48,6 @@ class WeatherLevels {
     glm::dvec2 centre{0.0};  // in the air's own frame, which drifts with the wind
     bool fresh = false;
   };
-  double edge(int level) const;
   const gl::Api& gl_;
   WeatherExtent extent_;
   gl::Texture main_, extra_;

@@ -83,7 +83,7 @@ void main() {
   if (uOptions.y > 0.5)
     jitter = vec3(gradientNoise(pixel, uTiming.x), whiteNoise(pixel, uTiming.x), fract(0.5 + 0.61803399 * uTiming.x));
   Sky sky;
-  sky.dither = whiteNoise(pixel + 4096.0, uTiming.x);
+  sky.dither = whiteNoise(pixel + 4096.0, uTiming.x * uOptions.y);
   vec4 colour;
   float depth, samples;
   renderRay(normalize(ray), limit, jitter, uMarch, uAir, uTransmittance, uAerialInscatter, uAerialTransmittance, sky,
