@@ -1,0 +1,160 @@
+#include "tests/realtime/march_cpu.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/parallel.hpp"
+#include "welkin/noise/textures.hpp"
+#include "welkin/realtime/frame_params.hpp"
+#include "welkin/realtime/march_params.hpp"
+#include "welkin/realtime/weather_levels.hpp"
+
+namespace welkin::law {
+#include "welkin/base/law_begin.inc"
+
+struct Sky {
+  std::vector<LayerParams> layers;
+  std::vector<ClipParams> clips;
+  std::vector<SheetParams> sheets;
+  TextureView weather, extra, base, detail, warp, nubisBase, nubisDetail, curl;
+  float dither = 0.0f;
+};
+
+FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky) {
+  Vec3 sum(0.0f, -1.0f, 0.0f);
+  for (std::size_t i = 0; i < sky.layers.size(); ++i) {
+    const Vec3 found = sky.layers[i].shape == static_cast<int>(LayerShape::nubis)
+                           ? nubisExtinction(q, full, sky.dither, sky.layers[i], sky.clips[i], sky.weather, sky.extra,
+                                             sky.nubisBase, sky.nubisDetail, sky.curl)
+                           : profileExtinction(q, footprint, sky.dither, sky.layers[i], sky.clips[i], sky.weather,
+                                               sky.extra, sky.base, sky.detail, sky.warp);
+    sum = Vec3(sum.x + found.x, max(sum.y, found.y), sum.z + found.z);
+  }
+  return sum;
+}
+FN int skySheetCount(IN(Sky) sky) { return static_cast<int>(sky.sheets.size()); }
+FN SheetParams skySheet(int i, IN(Sky) sky) { return sky.sheets[static_cast<std::size_t>(i)]; }
+
+#include "welkin/realtime/march.glsl"
+#include "welkin/realtime/ray.glsl"
+#include "welkin/base/law_end.inc"
+}  // namespace welkin::law
+
+namespace welkin::realtime::test {
+namespace {
+
+struct Textures {
+  Volume base, detail, warp, nubisBase, nubisDetail, curl;
+  std::vector<float> weather, extra;
+};
+
+// shaders/march.frag.glsl, first frame.
+float whiteNoise(int x, int y) { return law::unitFromHash(law::hashCell2(x, y, 9u)); }
+
+Volume halves(Volume v) {
+  roundToHalf(v);
+  return v;
+}
+
+void drawWeather(const Scene& scene, const glm::dvec2& position, const Drift& drift, law::Sky& in, Textures& textures) {
+  const WeatherExtent extent = weatherExtent(scene.quality.preset);
+  const std::size_t row = static_cast<std::size_t>(extent.texels) * 2, level = row * extent.texels;
+  textures.weather.resize(level * extent.levels * scene.layers.size());
+  textures.extra.resize(textures.weather.size());
+  const glm::dvec2 inAir = position - driftOffset(drift);
+  in.clips.resize(scene.layers.size());
+  for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+    law::ClipLevel* const clips[] = {&in.clips[i].level0, &in.clips[i].level1, &in.clips[i].level2,
+                                     &in.clips[i].level3};
+    in.clips[i].count = extent.levels;
+    in.clips[i].firstSlice = static_cast<float>(i * extent.levels);
+    for (int l = 0; l < extent.levels; ++l) {
+      const glm::dvec2 centre = levelCentre(extent, l, inAir);
+      *clips[l] = clipLevel(extent, l, inAir - centre);
+      const law::WeatherParams w =
+          weatherParams(scene.layers[i], centre, Drift{drift.windSpeed, drift.windFrom, 0.0}, scene.seed);
+      const bool nubis = scene.layers[i].cloud.shape == LayerShape::nubis;
+      const float edge = static_cast<float>(extent.edge(l)), texel = 1.0f / static_cast<float>(extent.texels);
+      const std::size_t start = level * (i * extent.levels + l);
+      parallelFor(level / 2, row / 2, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+          const glm::vec2 at(static_cast<float>(t % (row / 2)) + 0.5f, static_cast<float>(t / (row / 2)) + 0.5f);
+          const glm::vec2 p = (at * texel - 0.5f) * edge;
+          const glm::vec4 found = nubis ? law::nubisWeather(p, w, {}) : law::profileWeather(p, w, {});
+          textures.weather[start + 2 * t] = roundedToHalf(found.x);
+          textures.weather[start + 2 * t + 1] = roundedToHalf(found.y);
+          textures.extra[start + 2 * t] = roundedToHalf(found.z);
+          textures.extra[start + 2 * t + 1] = roundedToHalf(found.w);
+        }
+      });
+    }
+  }
+  const auto view = [&](const std::vector<float>& texels) {
+    return TextureView{
+        texels.data(), extent.texels, extent.texels, static_cast<int>(extent.levels * scene.layers.size()), 2,
+        Wrap::clamp,   Wrap::clamp};
+  };
+  in.weather = view(textures.weather);
+  in.extra = view(textures.extra);
+}
+
+void drawNoise(const Scene& scene, law::Sky& in, Textures& t) {
+  for (const Layer& layer : scene.layers) {
+    if (layer.cloud.shape == LayerShape::profile) {
+      t.base = halves(bakeProfileBasePacked(scene.noise.profile, scene.layers.front().profile.billowMix));
+      t.detail = halves(bakeProfileDetail(scene.noise.profile));
+      t.warp = halves(bakeProfileWarp(scene.noise.profile));
+    } else {
+      t.nubisBase = halves(bakeBaseShapePacked(scene.noise.baseShape));
+      t.nubisDetail = halves(bakeDetailPacked(scene.noise.detail));
+      t.curl = halves(bakeCurl(scene.noise.curl));
+    }
+  }
+  in.base = t.base.view(), in.detail = t.detail.view(), in.warp = t.warp.view();
+  in.nubisBase = t.nubisBase.view(), in.nubisDetail = t.nubisDetail.view(), in.curl = t.curl.view();
+}
+
+}  // namespace
+
+Image marchOnCpu(const Scene& scene, const Frame& frame) {
+  const FrameParams f = frameParams(frame, frame.width, frame.height, 1, scene.quality, 0);
+  const Drift drift{scene.wind.speed, scene.wind.from, frame.time};
+  const law::PlanetParams planet = planetParams(frame.position);
+  const glm::vec3 sun = sunDirection(scene.sun);
+  const SkyTablesCpu sky = bakeSky(scene.atmosphere, sun, std::max(planet.altitude, 0.0f), scene.ground.albedo);
+  law::Sky in;
+  Textures textures;
+  for (const Layer& layer : scene.layers) in.layers.push_back(layerParams(layer, frame.position, drift));
+  for (const Sheet& sheet : scene.sheets)
+    in.sheets.push_back(sheetParams(sheet, glm::dvec2(frame.position), frame.time, scene.seed));
+  drawWeather(scene, glm::dvec2(frame.position), drift, in, textures);
+  drawNoise(scene, in, textures);
+  const float pixel = 2.0f * glm::length(glm::vec3(f.rayX)) / static_cast<float>(frame.width);
+  const law::MarchParams march =
+      marchParams(scene, planet, sun, sky.light, pixel, frame.background == Background::skyAndGround);
+  const law::AtmosphereParams& air = sky.params.air;
+  Image image(frame.width, frame.height, 4);
+  parallelFor(image.pixels.size() / 4, 64, [&](std::size_t begin, std::size_t end) {
+    law::Sky own = in;
+    for (std::size_t i = begin; i < end; ++i) {
+      const float x = static_cast<float>(i % frame.width), y = static_cast<float>(i / frame.width);
+      const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) * glm::vec2(f.size.z, f.size.w) * 2.0f - 1.0f;
+      const glm::vec3 dir = glm::normalize(glm::vec3(f.ray + f.rayX * ndc.x + f.rayY * ndc.y));
+      own.dither = whiteNoise(static_cast<int>(x) + 4096, static_cast<int>(y) + 4096);
+      glm::vec4 colour;
+      float depth = 0.0f, samples = 0.0f;
+      law::renderRay(dir, 1e8f, glm::vec3(0.5f), march, air, sky.air.transmittance.view(), sky.aerialInscatter.view(),
+                     sky.aerialTransmittance.view(), own, colour, depth, samples);
+      const glm::vec3 behind = law::lookupSky(sky.skyView.view(), air, dir) + law::sunDisc(air, dir, pixel);
+      float* out = image.at(static_cast<int>(x), frame.height - 1 - static_cast<int>(y));
+      for (int c = 0; c < 3; ++c)
+        out[c] = roundedToHalf(std::min(colour[c] * f.wind.w, 60000.0f)) +
+                 roundedToHalf(colour.w) * std::min(behind[c] * f.wind.w, 60000.0f);
+    }
+  });
+  return image;
+}
+
+}  // namespace welkin::realtime::test

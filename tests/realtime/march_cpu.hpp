@@ -1,0 +1,10 @@
+#pragma once
+// The renderer's frame in C++: march, rounding to the history's half floats, composite. Slow; no OpenGL.
+#include "tests/realtime/stage.hpp"
+
+namespace welkin::realtime::test {
+
+// RGBA as Stage::draw answers it: full resolution, one ray a pixel, no jitter, no host depth.
+Image marchOnCpu(const Scene& scene, const Frame& frame);
+
+}  // namespace welkin::realtime::test

@@ -1,0 +1,266 @@
+// What a frame promises, whatever the sky: budgets, the same bytes for the same seed, any camera, history.
+#include "welkin/realtime/renderer.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/realtime/stage.hpp"
+#include "welkin/density/params.hpp"
+
+namespace welkin::realtime::test {
+namespace {
+
+std::size_t bytesAt1080p(QualityPreset preset, std::string& table) {
+  Stage stage(1920, 1080);
+  Scene scene;
+  scene.quality = qualityPreset(preset);
+  stage.draw(scene);
+  std::size_t total = 0;
+  for (const MemoryRow& row : stage.sky->memory(stage.view)) {
+    total += row.bytes;
+    table += fmt::format("{:28} {:8} {:5}x{:5}x{:3} {:9}\n", row.name, row.format, row.width, row.height, row.depth,
+                         row.bytes);
+  }
+  return total;
+}
+
+// Design section 5: Nubis' budget for medium; 20 MB shared and 20 a view for high.
+TEST(Memory, KeepsItsBudgets) {
+  std::string medium, high;
+  EXPECT_LT(bytesAt1080p(QualityPreset::medium, medium), 20'000'000u) << medium;
+  EXPECT_LT(bytesAt1080p(QualityPreset::high, high), 40'000'000u) << high;
+}
+
+TEST(Memory, ListsEveryTarget) {
+  Stage stage(64, 36);
+  stage.draw(Scene{});
+  std::size_t history = 0;
+  for (const MemoryRow& row : stage.sky->memory(stage.view)) {
+    EXPECT_GT(row.bytes, 0u) << row.name;
+    if (row.name.starts_with("view: history")) history += row.bytes;
+  }
+  EXPECT_EQ(history, 2u * 32 * 18 * 8) << "half resolution, four half floats, two of them";
+}
+
+TEST(Determinism, OneSeedGivesTheSameBytesAndAnotherDoesNot) {
+  for (const QualityPreset preset : {QualityPreset::high, QualityPreset::ultra}) {
+    Scene scene;
+    scene.quality = qualityPreset(preset);
+    makeSmall(scene);
+    const auto picture = [&] { return Stage(64, 36).draw(scene, 3, 10.0).pixels; };
+    const std::vector<float> first = picture();
+    EXPECT_EQ(first, picture());
+    ++scene.seed;
+    EXPECT_NE(first, picture());
+  }
+}
+
+// A renderer that has drawn other skies draws the next as a fresh one would.
+TEST(Determinism, LeavesNothingOfTheSkyBefore) {
+  const Scene scene = plainScene(LayerShape::profile);
+  const std::vector<float> fresh = Stage(64, 36).draw(scene).pixels;
+  Stage used(64, 36);
+  Scene other = plainScene(LayerShape::nubis);
+  other.seed = 5;
+  other.sheets.resize(2);
+  other.atmosphere.mie = 6.0f;
+  used.draw(other, 2, 50.0);
+  EXPECT_EQ(used.draw(scene).pixels, fresh);
+}
+
+// East of the world's origin, `altitude` above the curved ground.
+glm::dvec3 overGround(double east, double altitude) {
+  const double r = kPlanetRadius + altitude;
+  return {east, 0.0, std::sqrt(r * r - east * east) - kPlanetRadius};
+}
+
+struct Place {
+  const char* name;
+  double east, altitude;
+  float pitch;
+};
+class Cameras : public testing::TestWithParam<Place> {};
+
+TEST_P(Cameras, SeeFiniteLight) {
+  Stage stage(96, 54);
+  for (const LayerShape shape : {LayerShape::profile, LayerShape::nubis}) {
+    Scene scene = plainScene(shape);
+    scene.sheets.resize(1);
+    scene.camera.position = overGround(GetParam().east, GetParam().altitude);
+    scene.camera.pitch = GetParam().pitch;
+    for (const bool high : {false, true}) {
+      if (high) scene.quality = qualityPreset(QualityPreset::high);
+      makeSmall(scene);
+      const Statistics s = statistics(stage.draw(scene, 2));
+      EXPECT_TRUE(s.finite);
+      EXPECT_GE(s.least, 0.0);
+      EXPECT_GT(s.mean, 0.1) << "kcd/m^2: daylight";
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Places, Cameras,
+                         testing::Values(Place{"below", 0, 2, 0.2f}, Place{"under", 0, -30, 0.2f},
+                                         Place{"inside", 0, 1700, 0.0f}, Place{"above", 0, 6000, -0.1f},
+                                         Place{"high", 0, 20000, -0.3f}, Place{"orbit", 0, 400000, -0.5f},
+                                         Place{"far", 1e5, 150, 0.1f}, Place{"farther", 1e6, 150, 0.1f},
+                                         Place{"up", 0, 2, 1.5707963f}, Place{"down", 0, 20000, -1.5707963f}),
+                         [](const auto& place) { return std::string(place.param.name); });
+
+// A close view of a cloud's side. Weather is no periodic pattern, so far away there stand other clouds: the measure is
+// the mean over eight headings.
+struct CloseUp {
+  double brightness = 0.0, cover = 0.0, roughness = 0.0;
+};
+CloseUp closeUp(Stage& stage, double east) {
+  CloseUp sum;
+  for (int heading = 0; heading < 8; ++heading) {
+    Scene scene = plainScene(LayerShape::profile);
+    scene.layers[0].weather.population = Population::cells;
+    scene.layers[0].weather.coverage = 1.0f;
+    scene.sun.elevation = 1.57f;
+    scene.camera.position = overGround(east, 4200.0);
+    scene.camera.heading = 0.785f * static_cast<float>(heading);
+    // The view follows the ground: up leans by the arc.
+    scene.camera.pitch = -0.9f - static_cast<float>(std::asin(east / kPlanetRadius) * std::sin(scene.camera.heading));
+    scene.camera.fov = 0.1f;
+    const Image image = stage.draw(scene);
+    const Statistics s = statistics(image);
+    sum.brightness += s.mean / 8.0;
+    sum.roughness += roughness(image) / 8.0;
+  }
+  return sum;
+}
+
+// Floats resolve 0.06 m at 1000 km; had positions not been split into cell and fraction in double precision, a pixel of
+// this view (1.5 m) would show it as steps. Other clouds, other numbers: 35 % allows for the eight views' scatter.
+TEST(Precision, CloseUpsLookAlikeFarFromTheOrigin) {
+  Stage stage(64, 36);
+  const CloseUp here = closeUp(stage, 0.0);
+  std::printf("close-up: brightness %.4f, roughness %.6f\n", here.brightness, here.roughness);
+  EXPECT_GT(here.roughness, 1e-4);
+  for (const double east : {1e5, 1e6}) {
+    const CloseUp there = closeUp(stage, east);
+    std::printf("%.0f m: brightness %.4f, roughness %.6f\n", east, there.brightness, there.roughness);
+    EXPECT_NEAR(there.brightness / here.brightness, 1.0, 0.35) << east;
+    EXPECT_NEAR(there.roughness / here.roughness, 1.0, 0.35) << east;
+  }
+}
+
+// Wind carries weather and noise together: from the air that moves with it nothing changes. 2 km on, up leans by 0.02
+// deg, a thirtieth of a pixel of this picture.
+TEST(Wind, CarriesTheSkyWithACameraThatFloats) {
+  Stage stage(96, 54);
+  Scene scene = plainScene(LayerShape::profile);
+  scene.layers[0].cloud.detailDrift = 1.0f;
+  scene.layers[0].cloud.updraft = 0.0f;
+  scene.wind = {20.0f, 4.7123890f};
+  const Image before = stage.draw(scene, 1, 0.0);
+  const double time = 100.0;
+  const glm::dvec2 way = driftOffset({scene.wind.speed, scene.wind.from, time});
+  EXPECT_NEAR(way.x, 2000.0, 0.1) << "a west wind blows east";
+  EXPECT_LT(displayedPsnr(stage.draw(scene, 1, time), before), 25.0) << "control: other clouds come over the ground";
+  scene.camera.position = overGround(way.x, 150.0);
+  EXPECT_GT(displayedPsnr(stage.draw(scene, 1, time), before), 34.0);
+}
+
+// Temporal.
+
+Scene movingScene(int interleave) {
+  Scene scene;
+  scene.quality = qualityPreset(QualityPreset::high);
+  scene.quality.interleave = interleave;
+  scene.quality.jitter = false;
+  makeSmall(scene);
+  return scene;
+}
+
+// Sixteen frames fill every pixel of a 4x4 block once. What interleaving leaves is the share of fresh samples in the
+// running mean, and that is exact without jitter; the history's half floats are rounded once more.
+TEST(Temporal, AStillCameraConvergesToTheFullMarch) {
+  Stage stage(128, 72);
+  const Image full = stage.draw(movingScene(1));
+  for (const int interleave : {2, 4})
+    EXPECT_GT(displayedPsnr(stage.draw(movingScene(interleave), interleave * interleave), full), 50.0) << interleave;
+  // Negative control: the first frame alone is coarser.
+  EXPECT_LT(displayedPsnr(stage.draw(movingScene(4), 1), full), 40.0);
+}
+
+// A new sky replaces the old one in the history of a camera that stands still, however long it has looked.
+TEST(Temporal, ANewSkyIsSeenAtOnce) {
+  Stage stage(64, 36);
+  Scene scene = movingScene(2);
+  stage.draw(scene, 40);
+  scene.seed = 9;
+  stage.sky->setScene(scene);
+  Image after;
+  for (int i = 0; i < 4; ++i) after = stage.draw(stage.view, stage.frame(scene));
+  View fresh;
+  Image expected;
+  for (int i = 0; i < 4; ++i) expected = stage.draw(fresh, stage.frame(scene));
+  EXPECT_GT(displayedPsnr(after, expected), 50.0);
+}
+
+// A camera that turns by 0.1 deg and walks by 1.5 m a frame: 3 deg and 45 m a second.
+TEST(Temporal, AMovingCameraStaysNearTheFullMarch) {
+  Stage stage(160, 90);
+  const auto lastFrame = [&](int interleave, bool forgets) {
+    Scene scene = movingScene(interleave);
+    stage.sky->setScene(scene);
+    stage.view.reset();
+    Image image;
+    const int frames = 24;
+    for (int i = interleave > 1 && !forgets ? 0 : frames - 1; i < frames; ++i) {
+      scene.camera.heading = 0.00175f * static_cast<float>(i);
+      scene.camera.position.y = 1.5 * i;
+      Frame frame = stage.frame(scene);
+      frame.time = i / 30.0;
+      image = stage.draw(stage.view, frame);
+    }
+    return image;
+  };
+  const Image full = lastFrame(1, false);
+  const double two = displayedPsnr(lastFrame(2, false), full), four = displayedPsnr(lastFrame(4, false), full);
+  std::printf("moving: 2x2 %.1f dB, 4x4 %.1f dB, 4x4 without history %.1f dB\n", two, four,
+              displayedPsnr(lastFrame(4, true), full));
+  // A pixel of the history is 0.75 deg wide here; what is carried on softens silhouettes within it.
+  EXPECT_GT(two, 29.0);
+  EXPECT_GT(four, 24.0);
+  // Control: one frame's sixteenth of the pixels, without history.
+  EXPECT_LT(displayedPsnr(lastFrame(4, true), full), four - 1.0);
+}
+
+TEST(Temporal, WithoutReprojectionEveryFrameIsFresh) {
+  Stage stage(64, 36);
+  Scene scene = movingScene(4);
+  scene.quality.reprojection = false;
+  const Image first = stage.draw(scene);
+  scene.camera.heading = 1.0f;
+  const Image elsewhere = stage.draw(stage.view, stage.frame(scene));
+  scene.camera.heading = 0.0f;
+  EXPECT_EQ(stage.draw(stage.view, stage.frame(scene)).pixels, first.pixels);
+  EXPECT_NE(elsewhere.pixels, first.pixels);
+  EXPECT_EQ(stage.draw(movingScene(1)).pixels, first.pixels);
+}
+
+// No ray comes near the cap of turns, even where it runs along the deck to the horizon: the cap is 20000 turns, each
+// takes at most one sample.
+TEST(TurnCap, IsNotMetByLongViews) {
+  Stage stage(48, 27);
+  for (const double altitude : {150.0, 1300.0, 2000.0, 3300.0, 6000.0}) {
+    Scene scene = plainScene(LayerShape::profile);
+    scene.camera.position.z = altitude;
+    scene.camera.pitch = 0.0f;
+    scene.camera.fov = 0.35f;
+    stage.sky->countSamples(true);
+    stage.draw(scene);
+    const FrameCost cost = stage.sky->lastCost();
+    EXPECT_GT(cost.densitySamples, 0.0);
+    EXPECT_LT(cost.mostSamples, 10000.0) << altitude;
+  }
+}
+
+}  // namespace
+}  // namespace welkin::realtime::test
