@@ -1,4 +1,5 @@
-// Bytes of all textures and targets at 1920x1080, default sky, for each quality.
+// Bytes of all textures and targets at 1920x1080, default sky, for each quality that a budget
+// is set for.
 #include <fmt/format.h>
 
 #include <string>
@@ -8,8 +9,7 @@
 int main() {
   welkin::realtime::Offscreen screen(1920, 1080);
   std::string json;
-  for (const auto preset : {welkin::QualityPreset::low, welkin::QualityPreset::medium, welkin::QualityPreset::high,
-                            welkin::QualityPreset::ultra}) {
+  for (const auto preset : {welkin::QualityPreset::low, welkin::QualityPreset::medium, welkin::QualityPreset::high}) {
     welkin::Scene scene;
     scene.quality = welkin::qualityPreset(preset);
     screen.renderer().setScene(scene);
