@@ -46,9 +46,9 @@ int mixedSeed(int scene, int part) {
 }
 
 // Chance of a cloud in a cell of the largest class for which the expected cover equals `coverage`. Discs of class c
-// have mean squared radius 0.146 cell^2 (radius uniform in [.25, .5] cell) and cover about 0.62 of that disc.
+// have mean squared radius 0.146 cell^2 (radius uniform in [.25, .5] cell) and cover about 0.7 of that disc.
 float chanceForCoverage(float coverage, float falloff) {
-  const double share = 3.14159265 * 0.146 * 0.62;
+  const double share = 3.14159265 * 0.146 * 0.7;
   const auto cover = [&](double rate) {
     double clear = 1.0;
     for (int c = 0; c < 3; ++c, rate *= falloff) clear *= 1.0 - share * (1.0 - std::exp(-rate));

@@ -66,6 +66,13 @@ FN Vec4 authoring(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map) {
   return sample2(map, p * w.mapInverseSize + Vec2(w.mapOffsetX, w.mapOffsetY));
 }
 
+// Place across a front: 0 on its line, 1 two cluster sizes behind it.
+FN Real acrossFront(IN(Vec2) p, IN(WeatherParams) w) {
+  return (latticePoint(p, w.streets, 1.0f).x + float(w.streets.cellX)) * w.streets.size / (2.0f * w.clusters.size);
+}
+// 0 ahead of the line, 1 behind it.
+FN Real growthBehind(IN(Vec2) p, IN(WeatherParams) w) { return smoothstep(-0.05f, 0.35f, acrossFront(p, w)); }
+
 // Large-scale share of clouds round a point, mean 1: clusters, streets, fronts.
 FN Real gathering(IN(Vec2) p, IN(WeatherParams) w) {
   uint seed = uint(w.seed);
@@ -77,8 +84,7 @@ FN Real gathering(IN(Vec2) p, IN(WeatherParams) w) {
     return mix(Real(1.0f), 2.4f * wave * wave * (0.6f + 0.8f * n), Real(w.clustering));
   }
   if (w.population == kPopulationFront) {
-    Real across = (latticePoint(p, w.streets, 1.0f).x + float(w.streets.cellX)) * w.streets.size /
-                      (2.0f * w.clusters.size) + 0.7f * (n - 0.5f);
+    Real across = acrossFront(p, w) + 0.7f * (n - 0.5f);
     return 0.12f + 2.2f * smoothstep(-0.6f, 0.15f, across);
   }
   return max(1.0f + w.clustering * 3.2f * (n - 0.5f), 0.0f);
@@ -87,10 +93,8 @@ FN Real gathering(IN(Vec2) p, IN(WeatherParams) w) {
 // How tall clouds may grow round a point, 1 except behind and ahead of a front.
 FN Real growth(IN(Vec2) p, IN(WeatherParams) w) {
   if (w.population != kPopulationFront) return Real(1.0f);
-  Real across = (latticePoint(p, w.streets, 1.0f).x + float(w.streets.cellX)) * w.streets.size /
-                (2.0f * w.clusters.size);
-  Real line = exp(-across * across * 14.0f);
-  return mix(Real(0.3f), Real(1.0f), line) + 0.15f * smoothstep(0.1f, 1.0f, across);
+  Real across = acrossFront(p, w);
+  return max(mix(Real(0.22f), Real(1.0f), exp(-across * across * 14.0f)), 0.7f * growthBehind(p, w));
 }
 
 // Height of a dome of radius r and height h (m) at squared distance d2 from its centre: half an ellipsoid where it is
@@ -205,6 +209,13 @@ FN Vec4 profileWeather(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map) {
       anvil = max(anvil, found.y);
       chance *= w.falloff;
     }
+    // Separate clouds cannot close the sky: above two thirds of coverage a sheet grows in their gaps. Behind a front it
+    // is always there.
+    float closing = saturate((w.coverage - 0.66f) * 3.0f);
+    Real cover = map4.x * closing;
+    if (w.population == kPopulationFront) cover = saturate(1.2f * map4.x) * growthBehind(q, w);
+    if (closing > 0.0f || w.population == kPopulationFront)
+      height = max(height, 0.45f * uniformSheet(q, w, cover) * smoothstep(0.05f, 0.5f, cover));
   }
   Real vary = latticeNoise(p, w.warp, 1, seed + 41u);
   Real shift = 2.0f * w.baseVariation * (vary - 0.5f) + w.baseRange * map4.w;
