@@ -51,8 +51,8 @@ struct Api {
   WELKIN_GL_FUNCTIONS(WELKIN_GL_MEMBER)
   WELKIN_GL_OPTIONAL_FUNCTIONS(WELKIN_GL_MEMBER)
 #undef WELKIN_GL_MEMBER
-  bool es = false;                 // an OpenGL ES context
-  int major = 0, minor = 0;        // its version
+  bool es = false;           // an OpenGL ES context
+  int major = 0, minor = 0;  // its version
 
   bool hasExtension(const char* name) const;
   // Throws Error (failed) naming `doing` when OpenGL has recorded an error.
