@@ -11,7 +11,7 @@ namespace {
 
 struct Row {
   std::string name;
-  double milliseconds, samplesPerPixel;
+  double milliseconds, samplesPerPixel, fetchesPerPixel;
 };
 
 welkin::Scene nubisSky() {
@@ -38,7 +38,8 @@ Row measure(const std::string& name, welkin::realtime::Offscreen& screen, const 
   screen.renderer().setScene(scene);
   screen.renderer().countSamples(true);
   screen.draw(scene, 0.0);
-  const double samples = screen.renderer().lastCost().densitySamples / pixels;
+  const welkin::realtime::FrameCost cost = screen.renderer().lastCost();
+  const double samples = cost.densitySamples / pixels, fetches = cost.textureFetches / pixels;
   screen.renderer().countSamples(false);
   screen.view().reset();
   screen.draw(scene, 0.0);
@@ -50,7 +51,7 @@ Row measure(const std::string& name, welkin::realtime::Offscreen& screen, const 
     screen.finish();
     times.push_back(1000.0 * (welkin::bench::wallSeconds() - begin));
   }
-  return {name, welkin::bench::median(times), samples};
+  return {name, welkin::bench::median(times), samples, fetches};
 }
 
 }  // namespace
@@ -73,13 +74,15 @@ int main() {
   scene.quality.reprojection = true;
   add("4x4 reprojection", 16);
 
-  fmt::print("{:<26}{:>12}{:>16}{:>10}\n", "optimisation", "ms a frame", "samples/pixel", "speed-up");
+  fmt::print("{:<26}{:>12}{:>16}{:>16}{:>10}\n", "optimisation", "ms a frame", "samples/pixel", "fetches/pixel",
+             "speed-up");
   std::string json;
   for (const Row& row : rows) {
-    fmt::print("{:<26}{:>12.1f}{:>16.2f}{:>10.2f}\n", row.name, row.milliseconds, row.samplesPerPixel,
-               rows.front().milliseconds / row.milliseconds);
-    json += fmt::format("{}{{\"name\": \"{}\", \"ms\": {:.2f}, \"samples_per_pixel\": {:.3f}}}",
-                        json.empty() ? "" : ", ", row.name, row.milliseconds, row.samplesPerPixel);
+    fmt::print("{:<26}{:>12.1f}{:>16.2f}{:>16.2f}{:>10.2f}\n", row.name, row.milliseconds, row.samplesPerPixel,
+               row.fetchesPerPixel, rows.front().milliseconds / row.milliseconds);
+    json += fmt::format(
+        "{}{{\"name\": \"{}\", \"ms\": {:.2f}, \"samples_per_pixel\": {:.3f}, \"fetches_per_pixel\": {:.3f}}}",
+        json.empty() ? "" : ", ", row.name, row.milliseconds, row.samplesPerPixel, row.fetchesPerPixel);
   }
   fmt::print("{{\"speedup_all\": {:.2f}, \"samples_ratio\": {:.2f}, \"rows\": [{}]}}\n",
              rows.front().milliseconds / rows.back().milliseconds,

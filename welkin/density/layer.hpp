@@ -217,7 +217,7 @@ struct FieldTable<CloudLayer> {
         field<&CloudLayer::extinction, kPerMetre>("extinction", {0, 1}, {0.005, 0.2}, "extinction of dense cloud"),
         field<&CloudLayer::albedo>("albedo", {0, 1}, {0.9, 1}, "single-scattering albedo of a droplet"),
         field<&CloudLayer::dropletDiameter, kMicrometres>("droplet_diameter", {5, 50}, {5, 40},
-                                                          "diameter of the droplets: sets the phase function"),
+                                                          "diameter of the droplets, for lighting.phase droplets"),
         field<&CloudLayer::shear, kMetres>("shear", {0, 20000}, {0, 3000}, "how far the wind leans the tops"),
         field<&CloudLayer::detailDrift>("detail_drift", {0, 5}, {0, 2}, "speed of the detail as a share of the wind"),
         field<&CloudLayer::updraft, kMetresPerSecond>("updraft", {0, 20}, {0, 3}, "rise of the noise inside the cloud"),

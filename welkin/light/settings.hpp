@@ -10,9 +10,18 @@ struct ChoiceNames<LightingModel> {
   static constexpr std::array<std::string_view, 2> names{"physical", "nubis"};
 };
 
+// Of light that is scattered once. lobes: two Henyey-Greenstein lobes. droplets: the fit to Mie scattering (Jendersie
+// and d'Eon 2023) for the first layer's droplet diameter. Later scatterings have lobes in both cases.
+enum class PhaseModel { lobes, droplets };
+template <>
+struct ChoiceNames<PhaseModel> {
+  static constexpr std::array<std::string_view, 2> names{"lobes", "droplets"};
+};
+
 // How clouds are lit in real time.
 struct LightingSettings {
   LightingModel model = LightingModel::physical;
+  PhaseModel phase = PhaseModel::lobes;
   int octaves = 5;
   float contribution = 0.75f;
   float octaveExtinction = 0.6f;
@@ -31,6 +40,9 @@ struct FieldTable<LightingSettings> {
   static auto make() {
     return fieldRows(
         field<&LightingSettings::model>("model", "the lighting model"),
+        field<&LightingSettings::phase>("phase",
+                                        "phase function of light that is scattered once: two lobes, or the fit to "
+                                        "the first layer's droplets"),
         field<&LightingSettings::octaves>("octaves", {1, 8}, {}, "octaves of multiple scattering"),
         field<&LightingSettings::contribution>("contribution", {0, 1}, {}, "energy of each octave against the last"),
         field<&LightingSettings::octaveExtinction>("octave_extinction", {0, 1}, {},

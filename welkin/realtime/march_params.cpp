@@ -1,5 +1,7 @@
 #include "welkin/realtime/march_params.hpp"
 
+#include "welkin/light/phase.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,6 +95,11 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.backwardWeight = l.backwardWeight;
   m.rainAbsorption = l.rainAbsorption;
   m.octaves = l.octaves;
+  if (l.phase == PhaseModel::droplets && !scene.layers.empty()) {
+    const law::MiePhase mie = computeMiePhase(scene.layers.front().cloud.dropletDiameter);
+    m.droplets = {mie.gHG, mie.gDraine, mie.alpha, mie.wDraine};
+    m.useDroplets = 1;
+  }
   m.lightSteps = q.lightSteps;
   m.ambientSteps = q.ambientSteps;
   m.refine = q.refine ? 1 : 0;

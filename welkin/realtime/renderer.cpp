@@ -33,6 +33,22 @@ struct LayersBlock {
   law::AtmosphereParams air;
 };
 
+// Texture fetches of one density sample: every layer reads its weather and its noises.
+double fetchesPerSample(const Scene& scene) {
+  double sum = 0.0;
+  for (const Layer& layer : scene.layers) {
+    const law::LayerParams p = layerParams(layer, glm::dvec3(0.0), {});
+    // profile: warp, weather, base, detail, and where they are used more weather and fine detail. nubis: two of
+    // weather, base, curl, detail.
+    sum += layer.cloud.shape == LayerShape::nubis
+               ? 5.0
+               : 4.0 + (p.needsExtra ? 1.0 : 0.0) + (p.fineDetail > 0.0f ? 1.0 : 0.0);
+  }
+  return sum;
+}
+// Of one ray: the host's depth, sunlight at three heights, air before cloud and ground; a sheet takes three more.
+constexpr double kFetchesPerRay = 8.0;
+
 std::string fileText(const char* path) { return std::string(shaderSource(path)); }
 
 glm::dvec3 eastNorthUp(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, -p.z, p.y); }
@@ -402,6 +418,8 @@ FrameCost Renderer::lastCost() {
   cost.densitySamples = state_->counting ? state_->samples : 0.0;
   cost.mostSamples = state_->counting ? state_->mostSamples : 0.0;
   cost.rays = state_->counting ? state_->rays : 0.0;
+  cost.textureFetches = cost.densitySamples * fetchesPerSample(state_->scene) +
+                        cost.rays * (kFetchesPerRay + 3.0 * static_cast<double>(state_->scene.sheets.size()));
   return cost;
 }
 

@@ -63,6 +63,7 @@ struct FrameCost {
   double densitySamples = 0.0;  // in all; only while counting
   double mostSamples = 0.0;     // of one ray
   double rays = 0.0;
+  double textureFetches = 0.0;  // of the march, by what a density sample and a ray read; only while counting
 };
 struct MemoryRow {
   std::string name, format;
