@@ -3,7 +3,7 @@
 
 // The sheet's light over its opacity: a thin layer lit through half of itself.
 FN Vec3 sheetSource(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Vec3) sunlight, IN(MarchParams) m) {
-  Real phase = 2.2f * mix(Real(phaseIsotropic()), phaseHenyeyGreenstein(cosTheta, Real(0.75f)), Real(0.7f));
+  Real phase = 2.7f * mix(Real(phaseIsotropic()), phaseHenyeyGreenstein(cosTheta, Real(0.75f)), Real(0.7f));
   Real reach = exp(-0.5f * tau / max(slant, 0.1f));
   return sunlight * (phase * (0.25f + 0.75f * reach)) + xyz(m.ambientSky) * (0.6f * m.ambientSky.w) +
          xyz(m.ambientGround) * 0.15f;
