@@ -72,7 +72,8 @@ law::ClipParams WeatherLevels::params(int index, const glm::dvec2& position, con
   clip.count = extent_.levels;
   clip.firstSlice = static_cast<float>(index * extent_.levels);
   for (int level = 0; level < extent_.levels; ++level) {
-    const Level& cached = levels_[static_cast<std::size_t>(index * extent_.levels + level)];
+    const int slice = index * extent_.levels + level;
+    const Level& cached = levels_[static_cast<std::size_t>(slice)];
     *levels[level] = clipLevel(extent_, level, inAir - cached.centre);
   }
   return clip;
