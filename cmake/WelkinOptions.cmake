@@ -9,8 +9,6 @@ if(WELKIN_WERROR)
   target_compile_options(welkin_options INTERFACE -Werror)
 endif()
 if(WELKIN_SANITIZE)
-  # GCC's own manual: sanitizers make this warning report what is not there (here inside <regex>).
-  target_compile_options(welkin_options INTERFACE -Wno-maybe-uninitialized)
   target_compile_options(welkin_options INTERFACE -fsanitize=${WELKIN_SANITIZE} -fno-sanitize-recover=all
                                                   -fno-omit-frame-pointer -g1)
   # GCC sees uninitialised values where a sanitizer has taken its inlining away, in <regex> for one (GCC bug 105562).
