@@ -10,10 +10,14 @@ FN float phaseIsotropic() { return kInv4Pi; }
 FN Real phaseRayleigh(IN(Real) cosTheta) { return kInv4Pi * 0.75f * (1.0f + cosTheta * cosTheta); }
 
 // Henyey and Greenstein 1941 (000 eq. 2.13); g in (-1, 1) is the mean cosine. The squared distance is summed from two
-// terms that are small together, so that the peak keeps its height for g near 1.
-FN Real phaseHenyeyGreenstein(IN(Real) cosTheta, IN(Real) g) {
-  Real d = max((1.0f - g) * (1.0f - g) + 2.0f * g * (1.0f - cosTheta), 1e-12f);
+// terms that are small together, so that the peak keeps its height for g near 1. `versine` is 1 - cosTheta: a sampler
+// that knows it directly keeps the digits that cosTheta loses near straight on.
+FN Real phaseHenyeyGreensteinOfVersine(IN(Real) versine, IN(Real) g) {
+  Real d = max((1.0f - g) * (1.0f - g) + 2.0f * g * versine, 1e-12f);
   return kInv4Pi * (1.0f - g * g) / (d * sqrt(d));
+}
+FN Real phaseHenyeyGreenstein(IN(Real) cosTheta, IN(Real) g) {
+  return phaseHenyeyGreensteinOfVersine(1.0f - cosTheta, g);
 }
 
 // Two lobes of Henyey and Greenstein; `weight1` is the share of the second.
@@ -46,4 +50,8 @@ struct MiePhase {
 FN Real phaseMie(IN(Real) cosTheta, IN(MiePhase) mie) {
   return (1.0f - mie.wDraine) * phaseHenyeyGreenstein(cosTheta, mie.gHG) +
          mie.wDraine * phaseDraine(cosTheta, mie.gDraine, mie.alpha);
+}
+FN Real phaseMieOfVersine(IN(Real) versine, IN(MiePhase) mie) {
+  return (1.0f - mie.wDraine) * phaseHenyeyGreensteinOfVersine(versine, mie.gHG) +
+         mie.wDraine * phaseDraine(1.0f - versine, mie.gDraine, mie.alpha);
 }
