@@ -10,6 +10,7 @@ configure_package_config_file(cmake/welkinConfig.cmake.in welkinConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/welkin)
 write_basic_package_version_file(welkinConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/welkinConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/welkinConfigVersion.cmake
+              cmake/FindOpenVDB.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/welkin)
 if(TARGET welkin)
   install(TARGETS welkin RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

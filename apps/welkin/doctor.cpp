@@ -14,6 +14,7 @@
 #include "welkin/io/exr.hpp"
 #include "welkin/io/png.hpp"
 #include "welkin/io/sky_file.hpp"
+#include "welkin/io/vdb.hpp"
 
 namespace welkin::app {
 
@@ -51,13 +52,16 @@ Json describe() {
   Json simd = Json::array();
   for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1)
     simd.push_back(hwy::TargetName(rest & -rest));
-  Json report{
-      {"welkin", WELKIN_VERSION},
-      {"opengl", describeOpenGl(gl::ContextKind::desktop)},
-      {"opengl_es", describeOpenGl(gl::ContextKind::es)},
-      {"cpu", {{"threads", std::thread::hardware_concurrency()}, {"simd", simd}}},
-      {"libraries",
-       {{"OpenEXR", exrVersion()}, {"libpng", pngVersion()}, {"toml++", tomlVersion()}, {"CLI11", CLI11_VERSION}}}};
+  Json report{{"welkin", WELKIN_VERSION},
+              {"opengl", describeOpenGl(gl::ContextKind::desktop)},
+              {"opengl_es", describeOpenGl(gl::ContextKind::es)},
+              {"cpu", {{"threads", std::thread::hardware_concurrency()}, {"simd", simd}}},
+              {"libraries",
+               {{"OpenEXR", exrVersion()},
+                {"libpng", pngVersion()},
+                {"toml++", tomlVersion()},
+                {"CLI11", CLI11_VERSION},
+                {"OpenVDB", hasOpenVdb() ? openVdbVersion() : "none"}}}};
   const std::string presets = presetFolder();
   report["presets"] = presets;
   Json missing = Json::array();
@@ -65,6 +69,8 @@ Json describe() {
     missing.push_back(
         "OpenGL 3.3 or OpenGL ES 3.0 without a display; on Debian: apt-get install libegl1 libgl1-mesa-dri");
   if (presets.empty()) missing.push_back("the folder of presets; WELKIN_PRESETS may name it");
+  if (!hasOpenVdb())
+    missing.push_back("OpenVDB, for .vdb files; on Debian: apt-get install libopenvdb-dev, then build again");
   report["missing"] = missing;
   return report;
 }
