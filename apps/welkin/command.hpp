@@ -47,6 +47,7 @@ std::string presetFolder();
 std::shared_ptr<bool> addJsonFlag(CLI::App& command);
 
 void addRender(CLI::App& app);
+void addCompare(CLI::App& app);
 void addPresets(CLI::App& app);
 void addFields(CLI::App& app);
 void addCheck(CLI::App& app);

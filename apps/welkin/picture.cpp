@@ -7,8 +7,10 @@
 #include "welkin/base/tone.hpp"
 #include "welkin/io/exr.hpp"
 #include "welkin/io/file.hpp"
+#include "welkin/io/hdr.hpp"
 #include "welkin/io/png.hpp"
 #include "welkin/realtime/offscreen.hpp"
+#include "welkin/scene/features.hpp"
 
 namespace welkin::app {
 
@@ -54,7 +56,18 @@ Image renderSky(const Scene& scene, const RenderOptions& options) {
     screen.finish();
     report(options.progress, static_cast<double>(i + 1) / frames);
   }
-  return screen.read();
+  Image light = screen.read();
+  light.features = featuresOf(scene);
+  return light;
+}
+
+bool isDisplayPicture(const std::string& path) { return path.ends_with(".png"); }
+
+Image loadPicture(const std::string& path) {
+  if (isDisplayPicture(path)) return loadPng(path);
+  if (path.ends_with(".exr")) return loadExr(path);
+  if (path.ends_with(".hdr")) return loadHdr(path);
+  throw UsageError(fmt::format("'{}': a picture's name ends in .png, .exr or .hdr", path));
 }
 
 void requirePictureFile(const std::string& path) {
@@ -70,7 +83,7 @@ void savePicture(const std::string& path, const Image& light, const Film& film) 
                           .whiteBalance = film.whiteBalance,
                           .saturation = film.saturation,
                           .curve = film.tone};
-  savePng(path, light.width, light.height, light.channels, displayBytes(light, tone));
+  savePng(path, light.width, light.height, light.channels, displayBytes(light, tone), light.features);
 }
 
 }  // namespace welkin::app

@@ -23,6 +23,12 @@ std::vector<Volume> weatherMaps(const Scene& scene);
 // The sky through its camera by the real-time renderer: linear RGB in kcd/m^2. Throws Error (noOpenGl).
 Image renderSky(const Scene& scene, const RenderOptions& options);
 
+// Reads .png (values as stored), .exr or .hdr (linear light). Throws Error (badInput), UsageError for another name.
+Image loadPicture(const std::string& path);
+
+// Whether the file holds what a display shows (.png) rather than light.
+bool isDisplayPicture(const std::string& path);
+
 // Throws UsageError unless the file ends in .png or .exr, and Error (failed) when it cannot be written.
 void requirePictureFile(const std::string& path);
 

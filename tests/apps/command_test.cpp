@@ -26,7 +26,7 @@ TEST(Command, HelpAndVersionGoToStdout) {
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.err, "");
   for (const char* word :
-       {"  render", "  presets", "  fields", "  check", "  info", "  noise", "  weather", "  doctor"})
+       {"  render", "  compare", "  presets", "  fields", "  check", "  info", "  noise", "  weather", "  doctor"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.rfind("welkin ", 0), 0u);

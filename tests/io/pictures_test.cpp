@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <ImfArray.h>
+#include <ImfFloatAttribute.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <png.h>
@@ -147,6 +148,36 @@ TEST_F(Pictures, ExrKeepsAlphaAndGrey) {
     EXPECT_EQ(back.channels, channels);
     EXPECT_EQ(back.pixels, image.pixels);
   }
+}
+
+TEST_F(Pictures, FeaturesGoWithThePicture) {
+  Image image(4, 2, 3);
+  saveExr(file("a.exr"), image, ExrPrecision::half);
+  EXPECT_EQ(loadExr(file("a.exr")).features, "");
+  image.features = "clouds,lightning";
+  saveExr(file("a.exr"), image, ExrPrecision::half);
+  EXPECT_EQ(loadExr(file("a.exr")).features, "clouds,lightning");
+  savePng(file("a.png"), 4, 2, 3, bytes(24), image.features);
+  EXPECT_EQ(loadPng(file("a.png")).features, "clouds,lightning");
+}
+
+TEST_F(Pictures, ExrStatesWhereAndWhen) {
+  saveExr(file("a.exr"), Image(4, 2, 3), ExrPrecision::half,
+          {.environment = ExrEnvironment::latlong,
+           .captureDate = "2026:06:21 12:00:00",
+           .utcOffset = 7200.0,
+           .placed = true,
+           .latitude = 48.5,
+           .longitude = -9.25,
+           .numbers = {{"centerHeading", 90.0}}});
+  const Imf::RgbaInputFile exr(file("a.exr").c_str());
+  EXPECT_EQ(Imf::envmap(exr.header()), Imf::ENVMAP_LATLONG);
+  EXPECT_EQ(Imf::capDate(exr.header()), "2026:06:21 12:00:00");
+  EXPECT_EQ(Imf::utcOffset(exr.header()), -7200.0f);  // local time + utcOffset = universal time
+  EXPECT_EQ(Imf::latitude(exr.header()), 48.5f);
+  EXPECT_EQ(Imf::longitude(exr.header()), -9.25f);
+  EXPECT_EQ(Imf::wrapmodes(exr.header()), "periodic,clamp");
+  EXPECT_EQ(exr.header().typedAttribute<Imf::FloatAttribute>("welkin:centerHeading").value(), 90.0f);
 }
 
 // A sun does not fit in half precision; it must not turn into infinity unnoticed.

@@ -97,20 +97,30 @@ double automaticEv(const Image& light) {
   return sum / static_cast<double>(end - begin) + std::log2(1000.0 * 100.0 / 12.5);
 }
 
-std::vector<std::uint8_t> displayBytes(const Image& light, const ToneSettings& settings) {
+Image displayValues(const Image& light, const ToneSettings& settings) {
   const law::ToneParameters parameters = toneParameters(settings);
   const int channels = light.channels, colours = channels < 3 ? 1 : 3;
-  std::vector<std::uint8_t> bytes(light.pixels.size());
+  Image out(light.width, light.height, channels);
   parallelFor(static_cast<std::size_t>(light.height), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin * light.width; i < end * light.width; ++i) {
       const float* c = light.pixels.data() + i * channels;
-      const glm::vec3 colour = colours == 1 ? glm::vec3(c[0]) : glm::vec3(c[0], c[1], c[2]);
-      const glm::vec3 shown = law::toneMap(colour, parameters);
-      std::uint32_t random = hash(static_cast<std::uint32_t>(i));
-      for (int k = 0; k < channels; ++k, random = hash(random))
-        bytes[i * channels + k] = quantise(k < colours ? shown[k] : c[k], random);
+      const glm::vec3 shown = law::toneMap(colours == 1 ? glm::vec3(c[0]) : glm::vec3(c[0], c[1], c[2]), parameters);
+      for (int k = 0; k < channels; ++k) {
+        const float value = k < colours ? shown[k] : c[k];
+        out.pixels[i * channels + k] = value >= 0.0f ? std::min(value, 1.0f) : 0.0f;
+      }
     }
   });
+  return out;
+}
+
+std::vector<std::uint8_t> displayBytes(const Image& light, const ToneSettings& settings) {
+  const Image shown = displayValues(light, settings);
+  std::vector<std::uint8_t> bytes(shown.pixels.size());
+  for (std::size_t i = 0; i < bytes.size();) {
+    std::uint32_t random = hash(static_cast<std::uint32_t>(i / light.channels));
+    for (int k = 0; k < light.channels; ++k, ++i, random = hash(random)) bytes[i] = quantise(shown.pixels[i], random);
+  }
   return bytes;
 }
 

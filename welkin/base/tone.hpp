@@ -34,7 +34,10 @@ glm::mat3 whiteBalanceMatrix(double kelvin);
 // or not positive are left out; 15 when none remain.
 double automaticEv(const Image& light);
 
-// Rows of sRGB bytes, tone-mapped and dithered by half a step from a hash of the pixel. 1 or 2 channels count as grey
+// Tone-mapped to sRGB values in [0, 1]; channels as in displayBytes. NaN becomes black.
+Image displayValues(const Image& light, const ToneSettings& settings);
+
+// The same as rows of bytes, dithered by half a step from a hash of the pixel. 1 or 2 channels count as grey
 // (and alpha), a last channel of 2 or 4 is alpha; it is not tone-mapped.
 std::vector<std::uint8_t> displayBytes(const Image& light, const ToneSettings& settings);
 

@@ -1,16 +1,22 @@
 #include "welkin/io/exr.hpp"
 
 #include <ImfChannelList.h>
+#include <ImfFloatAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
 #include <OpenEXRConfig.h>
 #include <fmt/format.h>
 #include <half.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <mutex>
 #include <limits>
 #include <span>
 
@@ -23,7 +29,11 @@ namespace {
 
 constexpr const char* kColours[] = {"R", "G", "B", "A"};
 constexpr const char* kGrey[] = {"Y"};
-constexpr std::size_t kMaxPixels = std::size_t{1} << 28;
+constexpr const char* kFeatures = "welkin:features";
+constexpr int kMaxSide = 32768, kMaxTile = 4096;
+constexpr std::size_t kMaxPixels = std::size_t{1} << 27, kMaxBytes = std::size_t{1} << 32;
+// No compression of OpenEXR makes a picture more than about a thousand times smaller (deflate: 1032).
+constexpr std::size_t kMaxRatio = 4096;
 constexpr float kLargestHalf = 65504.0f;
 
 std::span<const char* const> channelNames(int channels) {
@@ -47,12 +57,33 @@ void requireValues(const std::string& path, const Image& image, ExrPrecision pre
   }
 }
 
-template <class T>
-void write(const std::string& path, const Image& image, Imf::PixelType type, std::span<const T> values) {
+Imf::Header headerOf(const Image& image, const ExrMetadata& metadata) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::addChromaticities(header, Imf::Chromaticities());
   Imf::addWhiteLuminance(header, 1000.0f);
+  if (!image.features.empty()) header.insert(kFeatures, Imf::StringAttribute(image.features));
+  if (metadata.environment != ExrEnvironment::none)
+    Imf::addEnvmap(header, metadata.environment == ExrEnvironment::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+  if (metadata.environment == ExrEnvironment::latlong) Imf::addWrapmodes(header, "periodic,clamp");
+  if (!metadata.captureDate.empty()) {
+    Imf::addCapDate(header, metadata.captureDate);
+    // OpenEXR counts the other way round: universal time = local time + utcOffset.
+    Imf::addUtcOffset(header, static_cast<float>(-metadata.utcOffset));
+  }
+  if (metadata.placed) {
+    Imf::addLatitude(header, static_cast<float>(metadata.latitude));
+    Imf::addLongitude(header, static_cast<float>(metadata.longitude));
+  }
+  for (const auto& [name, value] : metadata.numbers)
+    header.insert("welkin:" + name, Imf::FloatAttribute(static_cast<float>(value)));
+  return header;
+}
+
+template <class T>
+void write(const std::string& path, const Image& image, const ExrMetadata& metadata, Imf::PixelType type,
+           std::span<const T> values) {
+  Imf::Header header = headerOf(image, metadata);
   Imf::FrameBuffer buffer;
   const auto names = channelNames(image.channels);
   for (std::size_t c = 0; c < names.size(); ++c) {
@@ -65,8 +96,55 @@ void write(const std::string& path, const Image& image, Imf::PixelType type, std
   file.writePixels(image.height);
 }
 
-Image read(const std::string& path) {
-  Imf::InputFile file(path.c_str(), 1);
+// A file in memory.
+class Bytes : public Imf::IStream {
+ public:
+  Bytes(std::string_view bytes, const std::string& name) : Imf::IStream(name.c_str()), bytes_(bytes) {}
+  bool read(char to[], int count) override {
+    if (count < 0 || static_cast<std::size_t>(count) > bytes_.size() - std::min(at_, bytes_.size()))
+      throw std::runtime_error("the file ends too early");
+    std::memcpy(to, bytes_.data() + at_, static_cast<std::size_t>(count));
+    at_ += static_cast<std::size_t>(count);
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t at) override { at_ = at; }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+// OpenEXR makes room for an attribute before it reads it: one that claims more than the file holds is refused here.
+// After magic number and version a header is a list of name, type, size and value; an empty name ends it.
+void requireHeader(std::string_view bytes) {
+  constexpr const char* kShort = "the file ends too early";
+  const auto text = [&](std::size_t at) {
+    const std::size_t end = bytes.find('\0', at);
+    if (end == std::string_view::npos) throw std::runtime_error(kShort);
+    return end;
+  };
+  for (std::size_t at = 8;;) {
+    const std::size_t name = text(at);
+    if (name == at) return;
+    const std::size_t size = text(name + 1) + 1;
+    if (bytes.size() < size + 4) throw std::runtime_error(kShort);
+    std::uint32_t length = 0;
+    for (std::size_t i = 4; i-- > 0;) length = length << 8 | static_cast<std::uint8_t>(bytes[size + i]);
+    if (length > bytes.size() - size - 4) throw std::runtime_error(kShort);
+    at = size + 4 + length;
+  }
+}
+
+Image read(std::string_view bytes, const std::string& path) {
+  requireHeader(bytes);
+  static std::once_flag limited;
+  std::call_once(limited, [] {
+    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+    Imf::Header::setMaxTileSize(kMaxTile, kMaxTile);
+  });
+  Bytes stream(bytes, path);
+  Imf::InputFile file(stream, 1);
   const Imf::Header& header = file.header();
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
@@ -76,7 +154,11 @@ Image read(const std::string& path) {
   const auto has = [&](const char* name) { return header.channels().findChannel(name) != nullptr; };
   const bool colour = has("R") && has("G") && has("B");
   if (!colour && !has("Y")) throw Error(ErrorKind::badInput, path, "has neither the channels R, G, B nor Y");
-  Image image(static_cast<int>(width), static_cast<int>(height), !colour ? 1 : has("A") ? 4 : 3);
+  const int channels = !colour ? 1 : has("A") ? 4 : 3;
+  if (static_cast<std::size_t>(width * height) * channels * sizeof(float) / kMaxRatio > bytes.size())
+    throw Error(ErrorKind::badInput, path, fmt::format("is too short for {} x {} pixels", width, height));
+  Image image(static_cast<int>(width), static_cast<int>(height), channels);
+  if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(kFeatures)) image.features = text->value();
   Imf::FrameBuffer buffer;
   const auto names = channelNames(image.channels);
   const std::size_t step = sizeof(float) * image.channels, row = step * image.width;
@@ -93,15 +175,15 @@ Image read(const std::string& path) {
 
 }  // namespace
 
-void saveExr(const std::string& path, const Image& image, ExrPrecision precision) {
+void saveExr(const std::string& path, const Image& image, ExrPrecision precision, const ExrMetadata& metadata) {
   requireValues(path, image, precision);
   writeFileAtomically(path, [&](const std::string& temporary) {
     try {
       if (precision == ExrPrecision::half) {
         std::vector<half> values(image.pixels.begin(), image.pixels.end());
-        write<half>(temporary, image, Imf::HALF, values);
+        write<half>(temporary, image, metadata, Imf::HALF, values);
       } else {
-        write<float>(temporary, image, Imf::FLOAT, image.pixels);
+        write<float>(temporary, image, metadata, Imf::FLOAT, image.pixels);
       }
     } catch (const Error&) {
       throw;
@@ -113,9 +195,11 @@ void saveExr(const std::string& path, const Image& image, ExrPrecision precision
 
 std::string exrVersion() { return OPENEXR_VERSION_STRING; }
 
-Image loadExr(const std::string& path) {
+Image loadExr(const std::string& path) { return parseExr(readFile(path, kMaxBytes), path); }
+
+Image parseExr(std::string_view bytes, const std::string& path) {
   try {
-    return read(path);
+    return read(bytes, path);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {

@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 constexpr png_uint_32 kMaxSide = 16384;
 constexpr std::size_t kMaxPixels = std::size_t{1} << 26;
+constexpr std::size_t kMaxRatio = 1032;  // deflate makes data no smaller
+constexpr const char* kFeatures = "welkin:features";
 
 // Errors leave libpng's C frames as exceptions; they hold nothing that the structs' owners do not free. This needs
 // unwind tables, which GCC and Clang write for C too on x86-64 and AArch64.
@@ -62,7 +64,20 @@ void writeSome(png_structp png, png_bytep data, std::size_t count) {
 }
 void flush(png_structp) {}
 
+// libpng makes room for a chunk before it reads it: one that claims more than the file holds is refused here. After the
+// signature of 8 bytes come chunks of length, type, data and checksum.
+void requireChunks(std::string_view bytes) {
+  for (std::size_t at = 8; at + 8 <= bytes.size();) {
+    std::uint32_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<std::uint8_t>(bytes[at + i]);
+    if (length > bytes.size() - at - 8) throw Failure{"the file ends too early"};
+    at += 12 + std::size_t{length};
+  }
+}
+
 Image readPng(std::string_view bytes) {
+  requireChunks(bytes);
+  const std::size_t length = bytes.size();
   Reader reader;
   png_structp png = reader.png;
   png_set_user_limits(png, kMaxSide, kMaxSide);
@@ -72,6 +87,7 @@ Image readPng(std::string_view bytes) {
   const png_uint_32 width = png_get_image_width(png, reader.info), height = png_get_image_height(png, reader.info);
   if (std::size_t{width} * height > kMaxPixels)
     throw Failure{fmt::format("{} x {} pixels are too many", width, height)};
+  if (png_get_rowbytes(png, reader.info) * height / kMaxRatio > length) throw Failure{"the file ends too early"};
 
   png_set_expand(png);  // palette to RGB, 1 to 4 bits to 8, transparency to alpha
   if (png_get_bit_depth(png, reader.info) == 16 && std::endian::native == std::endian::little) png_set_swap(png);
@@ -87,6 +103,10 @@ Image readPng(std::string_view bytes) {
   png_read_end(png, nullptr);
 
   Image image(static_cast<int>(width), static_cast<int>(height), channels);
+  png_textp texts = nullptr;
+  const int textCount = png_get_text(png, reader.info, &texts, nullptr);
+  for (int i = 0; i < textCount; ++i)
+    if (texts[i].text && std::string_view(texts[i].key) == kFeatures) image.features = texts[i].text;
   const std::size_t count = image.pixels.size();
   if (bits == 16) {
     const auto* wide = reinterpret_cast<const std::uint16_t*>(samples.data());
@@ -99,7 +119,8 @@ Image readPng(std::string_view bytes) {
   return image;
 }
 
-std::string encode(int width, int height, int channels, int bits, const std::uint8_t* samples) {
+std::string encode(int width, int height, int channels, int bits, const std::uint8_t* samples,
+                   const std::string& features) {
   constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                   PNG_COLOR_TYPE_RGB_ALPHA};
   std::string bytes;
@@ -110,6 +131,14 @@ std::string encode(int width, int height, int channels, int bits, const std::uin
                kColourTypes[channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (bits == 8) png_set_sRGB(png, writer.info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_set_compression_level(png, 6);
+  if (!features.empty()) {
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = const_cast<png_charp>(kFeatures);
+    text.text = const_cast<png_charp>(features.c_str());
+    text.text_length = features.size();
+    png_set_text(png, writer.info, &text, 1);
+  }
   png_write_info(png, writer.info);
   if (bits == 16 && std::endian::native == std::endian::little) png_set_swap(png);
   const std::size_t stride = static_cast<std::size_t>(width) * channels * (bits / 8);
@@ -119,7 +148,8 @@ std::string encode(int width, int height, int channels, int bits, const std::uin
 }
 
 template <class T>
-void save(const std::string& path, int width, int height, int channels, std::span<const T> samples) {
+void save(const std::string& path, int width, int height, int channels, std::span<const T> samples,
+          const std::string& features = "") {
   if (width < 1 || height < 1 || channels < 1 || channels > 4 ||
       samples.size() != static_cast<std::size_t>(width) * height * channels)
     throw Error(
@@ -127,7 +157,8 @@ void save(const std::string& path, int width, int height, int channels, std::spa
         fmt::format("{} x {} pixels of {} channels do not fit {} samples", width, height, channels, samples.size()));
   std::string bytes;
   try {
-    bytes = encode(width, height, channels, 8 * sizeof(T), reinterpret_cast<const std::uint8_t*>(samples.data()));
+    bytes =
+        encode(width, height, channels, 8 * sizeof(T), reinterpret_cast<const std::uint8_t*>(samples.data()), features);
   } catch (const Failure& failure) {
     throw Error(ErrorKind::failed, path, "cannot be written as PNG: " + failure.what);
   }
@@ -146,8 +177,9 @@ Image parsePng(std::string_view bytes, const std::string& name) {
 
 Image loadPng(const std::string& path) { return parsePng(readFile(path, kMaxBytes), path); }
 
-void savePng(const std::string& path, int width, int height, int channels, std::span<const std::uint8_t> samples) {
-  save(path, width, height, channels, samples);
+void savePng(const std::string& path, int width, int height, int channels, std::span<const std::uint8_t> samples,
+             const std::string& features) {
+  save(path, width, height, channels, samples, features);
 }
 
 std::string pngVersion() { return png_get_libpng_ver(nullptr); }

@@ -1,0 +1,16 @@
+#include "welkin/scene/features.hpp"
+
+namespace welkin {
+
+std::string featuresOf(const Scene& scene) {
+  std::string words;
+  const auto add = [&](bool shown, const char* word) {
+    if (shown && !words.empty()) words += ',';
+    if (shown) words += word;
+  };
+  add(!scene.layers.empty(), "clouds");
+  add(!scene.sheets.empty(), "sheets");
+  return words;
+}
+
+}  // namespace welkin
