@@ -40,6 +40,11 @@ function(welkin_room NAME)
         set_source_files_properties(${PROJECT_SOURCE_DIR}/welkin/io/vdb.cpp PROPERTIES
                                     COMPILE_DEFINITIONS WELKIN_HAS_OPENVDB=1)
       endif()
+      if(NANOVDB_INCLUDE_DIR)
+        set_source_files_properties(${PROJECT_SOURCE_DIR}/welkin/io/nanovdb.cpp PROPERTIES
+                                    COMPILE_DEFINITIONS WELKIN_HAS_NANOVDB=1)
+        target_include_directories(${TARGET} SYSTEM PRIVATE ${NANOVDB_INCLUDE_DIR})
+      endif()
     elseif(ITEM MATCHES "::")
       target_link_libraries(${TARGET} ${VISIBILITY} ${ITEM})
     else()

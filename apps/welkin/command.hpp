@@ -54,6 +54,7 @@ void addCheck(CLI::App& app);
 void addInfo(CLI::App& app);
 void addNoise(CLI::App& app);
 void addWeather(CLI::App& app);
+void addVdb(CLI::App& app);
 void addDoctor(CLI::App& app);
 
 }  // namespace welkin::app

@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
   addInfo(app);
   addNoise(app);
   addWeather(app);
+  addVdb(app);
   addDoctor(app);
   try {
     app.parse(argc, argv);

@@ -43,6 +43,9 @@ class DensityField {
   // weather maps.
   explicit DensityField(const DensityParts& parts, DensityTextures textures = {});
 
+  // Goes to another time; not while others ask.
+  void setDrift(const Drift& drift) { drift_ = drift; }
+
   std::size_t layerCount() const { return layers_.size(); }
   std::size_t sheetCount() const { return sheets_.size(); }
 

@@ -12,6 +12,7 @@
 
 #include "welkin/base/error.hpp"
 #include "welkin/io/file.hpp"
+#include "welkin/io/volume_lattice.hpp"
 
 #if WELKIN_HAS_OPENVDB
 #include <openvdb/io/Archive.h>
@@ -25,7 +26,7 @@ namespace {
 
 constexpr int kBrick = VoxelGrid::kBrick;
 constexpr float kLargestHalf = 65504.0f;
-constexpr double kFarthest = 0x1p30;  // voxels from the origin, half of what OpenVDB's coordinates reach
+constexpr double kFarthest = 0x1p30;  // voxels, half of what OpenVDB's coordinates reach
 constexpr std::size_t kMostNotes = 64, kLongestNote = 1024;
 
 using Brick = std::array<float, VoxelGrid::kBrickVoxels>;
@@ -41,22 +42,13 @@ void forVoxels(const Visit& visit) {
 }
 
 openvdb::FloatGrid::Ptr gridOf(const std::string& path, const VoxelGrid& voxels) {
-  openvdb::Coord offset;
-  openvdb::Vec3d translation;
-  for (int c = 0; c < 3; ++c) {
-    const double voxel = voxels.voxel()[c], bricks = std::floor(voxels.origin()[c] / (kBrick * voxel) + 1e-6);
-    if (std::abs(bricks) * kBrick > kFarthest)
-      throw Error(ErrorKind::badInput, path, "the region is too many voxels away from the origin");
-    offset[c] = static_cast<int>(bricks) * kBrick;
-    double rest = voxels.origin()[c] - bricks * kBrick * voxel;
-    if (std::abs(rest) < 1e-5 * voxel) rest = 0.0;
-    translation[c] = rest + 0.5 * voxel;
-  }
+  const VolumeLattice lattice = latticeOf(voxels, path);
   auto grid = openvdb::FloatGrid::create(0.0f);
   auto transform = openvdb::math::Transform::createLinearTransform();
   transform->preScale(openvdb::Vec3d(voxels.voxel().x, voxels.voxel().y, voxels.voxel().z));
-  transform->postTranslate(translation);
+  transform->postTranslate(openvdb::Vec3d(lattice.translation.x, lattice.translation.y, lattice.translation.z));
   grid->setTransform(transform);
+  const openvdb::Coord offset(lattice.offset.x, lattice.offset.y, lattice.offset.z);
   const glm::ivec3 size = voxels.brickDims();
   for (int z = 0; z < size.z; ++z)
     for (int y = 0; y < size.y; ++y)
