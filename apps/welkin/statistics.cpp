@@ -39,6 +39,16 @@ double areaOf(const Layer& layer) {
   return kPatterns * std::max(w.cellSize, w.clusterSize);
 }
 
+// The middle of the columns: the camera, but for a front the place on its line that is nearest to it.
+glm::dvec2 middleOf(const Layer& layer, const Scene& scene) {
+  const glm::dvec2 camera(scene.camera.position);
+  const WeatherSettings& w = layer.weather;
+  if (!w.map.empty() || layer.cloud.shape == LayerShape::nubis || w.population != Population::front) return camera;
+  const glm::dvec2 across(std::cos(w.orientation), -std::sin(w.orientation));
+  const glm::dvec2 moved = driftOffset({scene.wind.speed, scene.wind.from, scene.time});
+  return camera - across * glm::dot(camera - moved, across);
+}
+
 double quantile(std::vector<double>& values, double share) {
   if (values.empty()) return 0.0;
   const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
@@ -82,18 +92,18 @@ DensityField densityField(const Scene& scene) {
 
 SkyStatistics measureSky(const Scene& scene) {
   const DensityField clouds = densityField(scene);
-  const glm::dvec2 here(scene.camera.position);
   SkyStatistics sky;
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     const Layer& layer = scene.layers[i];
     const double step = std::min(kStep, layer.cloud.thickness / kThinSteps);
-    const std::vector<glm::dvec2> places = stratifiedPlaces(here, areaOf(layer));
+    const std::vector<glm::dvec2> places = stratifiedPlaces(middleOf(layer, scene), areaOf(layer));
     sky.layers.push_back(summary(clouds.columns(i, places, step), kCloudyLayer));
   }
   for (std::size_t i = 0; i < scene.sheets.size(); ++i) {
     const float height = scene.sheets[i].height;
     std::vector<CloudColumn> columns;
-    for (const float depth : clouds.sheetOpticalDepth(i, stratifiedPlaces(here, kSheetEdge)))
+    for (const float depth :
+         clouds.sheetOpticalDepth(i, stratifiedPlaces(glm::dvec2(scene.camera.position), kSheetEdge)))
       columns.push_back({depth, height, height});
     CloudStatistics s = summary(columns, kCloudySheet);
     s.base = s.top = height;

@@ -25,7 +25,8 @@ struct SkyStatistics {
 };
 
 // Over a few thousand stratified columns at the scene's time. They cover twelve of a layer's largest patterns in each
-// direction round the camera; a front, which stands in one place, four cluster sizes; a picture, what it covers.
+// direction round the camera; a front, which stands in one place, four cluster sizes round the nearest place on its
+// line; a picture, what it covers.
 SkyStatistics measureSky(const Scene& scene);
 
 // The scene's clouds with the pictures that it names. Throws Error (badInput) for a picture that cannot be read.

@@ -119,7 +119,7 @@ TEST(DensityField, IsAsPreciseFarFromTheOrigin) {
   std::vector<glm::dvec3> moved = points;
   for (glm::dvec3& p : moved) p += glm::dvec3(driftOffset(late), 0.0);
   const Difference d = compare(near.extinction(points), far.extinction(moved));
-  EXPECT_GT(d.meanValue, 1e-3);
+  EXPECT_GT(d.meanValue, 5e-4) << "too little cloud to compare";
   EXPECT_LT(d.mean, 2e-3 * d.meanValue);
 }
 

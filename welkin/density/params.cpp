@@ -123,6 +123,10 @@ law::LayerParams layerParams(const Layer& layer, const glm::dvec3& anchor, const
   if (cloud.shape == LayerShape::profile) {
     p.noise = noiseOrigin(origin(1.0, 1.0), s.noiseTile);
     p.warping = noiseOrigin(origin(1.0, 0.0), 1.3 * s.noiseTile);
+    const glm::dvec3 o = origin(1.0, 1.0);
+    const glm::dvec2 downwind(-std::sin(drift.windFrom), -std::cos(drift.windFrom));
+    const double along = o.x * downwind.x + o.y * downwind.y, across = o.y * downwind.x - o.x * downwind.y;
+    p.fibres = noiseOrigin({along / law::kFibreStretch, across, o.z}, s.noiseTile);
     p.detailing = noiseOrigin(origin(cloud.detailDrift, 1.5), s.detailTile);
     p.fine = noiseOrigin(origin(cloud.detailDrift, 2.0), s.fineTile);
   } else {

@@ -13,6 +13,7 @@ struct LayerParams {
   vec4 detailing;
   vec4 fine;
   vec4 curl;     // nubis: curl noise, w: 1 / tile
+  vec4 fibres;   // of the anvil: x along the wind, drawn out by kFibreStretch
   float curlAmplitude, detailTileRatio, spare0, spare1;
   int shape, transition, hasAnvil, needsExtra;
 };
@@ -48,6 +49,27 @@ FN Vec2 profileColumn(IN(Vec3) q, IN(LayerParams) c, IN(Sampler3) warpNoise) {
   return Vec2(q.x + c.warp * rise * (drift.x - 0.5f), q.y + c.warp * rise * (drift.y - 0.5f));
 }
 
+// The anvil of a cumulonimbus: ice that spreads below the tropopause, which is its flat top, and hangs lower toward the
+// tower. Heights are shares of the layer's thickness.
+const float kAnvilTop = 0.84f;
+const float kFibreStretch = 6.0f;
+
+// Fibres that the wind has drawn out, 0..1.
+FN Real anvilFibre(IN(Vec3) q, IN(LayerParams) c, IN(Sampler3) baseNoise) {
+  Real along = q.x * c.downwindX + q.y * c.downwindY;
+  Real across = q.y * c.downwindX - q.x * c.downwindY;
+  return sample3(baseNoise, Vec3(along / kFibreStretch, across, q.z) * c.fibres.w + xyz(c.fibres)).x;
+}
+
+// Depth inside the anvil in m, negative outside: `anvil` is 0 at its rim and 1 over the tower, hb in m above the base.
+FN Real anvilDepth(IN(Real) anvil, IN(Real) hb, IN(Real) fibre, IN(LayerParams) c) {
+  Real near = smoothstep(0.45f, 1.0f, anvil);
+  Real below = kAnvilTop * c.thickness - hb;
+  Real deep = c.thickness * (0.015f + 0.085f * saturate(1.6f * anvil) + 0.16f * near * near);
+  Real torn = c.thickness * mix(Real(0.075f), Real(0.05f), near) * (1.0f - fibre);
+  return select(anvil > 0.0f, min(2.5f * below, deep - below) - torn, Real(-1000.0f));
+}
+
 // The answer at the unsheared point q whose column has weather w.
 FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(LayerParams) c, IN(Sampler3) baseNoise,
                             IN(Sampler3) detailNoise) {
@@ -57,16 +79,16 @@ FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(Layer
   Real ice = 0.0f;
   Real n = sample3(baseNoise, q * c.noise.w + xyz(c.noise)).x;
   if (c.hasAnvil != 0) {
-    Real flare = smoothstep(0.35f, 1.0f, w.z);
-    Real above = hb - 0.76f * c.thickness;
-    Real half_ = c.thickness * 0.085f * (0.15f + 0.85f * w.z);
-    Real inside = min(half_ - above, half_ + above + 0.34f * c.thickness * flare);
-    Real sheet = select(w.z > 0.0f, min(inside / (0.6f * amplitude), saturate(4.0f * w.z)), Real(-1.0f));
-    ice = smoothstep(0.0f, 0.35f, sheet) * smoothstep(0.55f, 0.8f, hb / c.thickness);
+    // Towers stop where the anvil spreads; a little of what is left of their ascent shoots over it.
+    Real limit = (kAnvilTop - 0.03f) * c.thickness;
+    Real tower = min(w.x, limit + 0.04f * max(w.x - limit, 0.0f));
+    profile = min(min((tower - hb) / amplitude, Real(1.0f)), (tower - 20.0f) * 0.02f);
+    Real sheet = anvilDepth(w.z, hb, anvilFibre(q, c, baseNoise), c) / amplitude;
+    ice = saturate(0.5f + 4.0f * (sheet - profile)) * smoothstep(0.45f, 0.65f, hb / c.thickness);
     profile = smoothMax(profile, sheet, 0.3f);
   }
   Real low = saturate(hb * 0.00333333f);
-  Real eaten = c.erosion * mix(Real(1.0f), Real(0.6f), ice) *
+  Real eaten = c.erosion * (1.0f - ice) *
                (c.baseErosion + (1.0f - c.baseErosion) * smoothstep(0.0f, 260.0f, hb));
   Real depth = profile - eaten * (1.0f - n) - c.baseCut * (1.0f - low);
   Vec4 d = sample3(detailNoise, q * c.detailing.w + xyz(c.detailing));
@@ -77,7 +99,7 @@ FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(Layer
     Real f = sample3(detailNoise, q * c.fine.w + xyz(c.fine)).x;
     carved += c.fineDetail * (0.5f - f) * detailShare(footprint, 0.08f / c.fine.w, 0.2f / c.fine.w);
   }
-  depth = depth * amplitude - carved;
+  depth = depth * amplitude - carved * (1.0f - 0.8f * ice);
   Real dense = saturate(depth * mix(Real(c.inverseRamp), Real(c.anvilRamp), ice)) *
                smoothstep(0.0f, c.baseFade, hb + 2.0f * c.baseRagged * (n - 0.5f));
   Real liquid = 1.0f - c.liquidGradient + c.liquidGradient * sqrt(saturate(hb / c.thickness));

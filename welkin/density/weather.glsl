@@ -124,14 +124,16 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     Real rate = chance * gathering(place, w) * map4.x / max(w.coverage, 1e-3f);
     Mask here = unitFromHash(h2) < 1.0f - exp(-rate);
     Real u = unitFromHash(nextHash(h2));
-    float reach = size * mix(0.5f, 0.16f, float(scale == 1) * saturate(w.anvil * 4.0f));
+    // Towers with anvils, and those that stand among them, are narrow: an anvil reaches 3.4 radii downwind, and no cloud
+    // may reach farther than half a cell.
+    float reach = size * mix(0.5f, scale == 1 ? 0.147f : 0.25f, saturate(w.anvil * 4.0f));
     Real r = reach * (0.5f + 0.5f * u);
     Real relative = r / (0.5f * w.cells.size);
     // Tops grow with the cloud's width; type lowers or raises them.
     Real lift = 1.0f;
-    if (w.anvil <= 0.0f) lift = exp(0.75f * log(max(relative, 1e-4f)));
+    if (w.anvil <= 0.0f || scale > 1) lift = exp(0.75f * log(max(relative, 1e-4f)));
     Real top = w.thickness * growth(place, w) * mix(Real(0.6f), Real(1.4f), map4.z) * lift * (0.8f + 0.2f * u);
-    Real best = dome(dot(d, d), 0.8f * r, mix(0.6f, 0.95f, w.anvil) * top);
+    Real best = dome(dot(d, d), mix(0.8f, 1.0f, w.anvil) * r, mix(0.6f, 0.95f, w.anvil) * top);
     Uint s = h2;
     for (int j = 0; j < 6; ++j) {
       s = nextHash(s);
@@ -143,11 +145,11 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
       best = max(best, dome(dot(e, e), rs, min(top * (1.0f - 0.75f * away), 3.1f * rs)));
     }
     height = max(height, select(here, best, Real(0.0f)));
-    // The anvil: an ellipse that the wind carries off the tower.
-    Vec2 a = d - Vec2(w.downwindX, w.downwindY) * (0.4f * r);
-    Real along = a.x * w.downwindX + a.y * w.downwindY;
-    Real across = a.y * w.downwindX - a.x * w.downwindY;
-    Real q = (along * along / 1.35f + across * across * 1.35f) / (5.76f * r * r);
+    // The anvil: half an ellipse to windward of the tower and, since the wind carries it off, a longer one downwind.
+    Real along = d.x * w.downwindX + d.y * w.downwindY;
+    Real across = (d.y * w.downwindX - d.x * w.downwindY) / (1.9f * r);
+    along = along / (select(along > 0.0f, Real(3.4f), Real(1.5f)) * r);
+    Real q = along * along + across * across;
     anvil = max(anvil, select(here, max(1.0f - q, 0.0f), Real(0.0f)) * (scale == 1 ? w.anvil : 0.0f));
   }
   return Vec2(height, anvil);

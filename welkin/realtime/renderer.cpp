@@ -38,11 +38,11 @@ double fetchesPerSample(const Scene& scene) {
   double sum = 0.0;
   for (const Layer& layer : scene.layers) {
     const law::LayerParams p = layerParams(layer, glm::dvec3(0.0), {});
-    // profile: warp, weather, base, detail, and where they are used more weather and fine detail. nubis: two of
-    // weather, base, curl, detail.
+    // profile: warp, weather, base, detail, and where they are used more weather, the anvil's fibres and fine detail.
+    // nubis: two of weather, base, curl, detail.
     sum += layer.cloud.shape == LayerShape::nubis
                ? 5.0
-               : 4.0 + (p.needsExtra ? 1.0 : 0.0) + (p.fineDetail > 0.0f ? 1.0 : 0.0);
+               : 4.0 + (p.needsExtra ? 1.0 : 0.0) + (p.hasAnvil ? 1.0 : 0.0) + (p.fineDetail > 0.0f ? 1.0 : 0.0);
   }
   return sum;
 }
