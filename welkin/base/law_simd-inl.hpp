@@ -214,6 +214,7 @@ HWY_INLINE Int max(Int a, Int b) { return hn::Max(a.v, b.v); }
 HWY_INLINE Real clamp(Real x, Real a, Real b) { return min(max(x, a), b); }
 HWY_INLINE Real saturate(Real x) { return clamp(x, 0.0f, 1.0f); }
 HWY_INLINE Real mix(Real a, Real b, Real t) { return a * (1.0f - t) + b * t; }
+HWY_INLINE Real mix(Real a, Real b, float t) { return mix(a, b, Real(t)); }
 HWY_INLINE Real step(Real edge, Real x) { return select(x < edge, Real(0.0f), Real(1.0f)); }
 HWY_INLINE Real smoothstep(Real a, Real b, Real x) {
   const Real t = clamp((x - a) / (b - a), 0.0f, 1.0f);
