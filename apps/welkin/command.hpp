@@ -46,6 +46,7 @@ std::string presetFolder();
 // `--json`, for a subcommand that programs read.
 std::shared_ptr<bool> addJsonFlag(CLI::App& command);
 
+void addHdri(CLI::App& app);
 void addRender(CLI::App& app);
 void addCompare(CLI::App& app);
 void addPresets(CLI::App& app);

@@ -75,7 +75,8 @@ void SkyArguments::addTo(CLI::App& command, Need need) {
   command.add_option("--set", assignments, "set a parameter, e.g. layer.0.weather.coverage=0.5 (see `welkin fields`)")
       ->type_name("KEY=VALUE")
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);  // one value each: what follows may be the sky
   command.add_option("--seed", seed, "another seed, another sky")->type_name("N");
   command.add_option("--time", time, "seconds that wind and growth have been at work")->type_name("T");
 }

@@ -25,8 +25,8 @@ TEST(Command, HelpAndVersionGoToStdout) {
   const Outcome help = run("--help"), version = run("--version"), sub = run("render --help");
   EXPECT_EQ(help.code, 0);
   EXPECT_EQ(help.err, "");
-  for (const char* word :
-       {"  render", "  compare", "  presets", "  fields", "  check", "  info", "  noise", "  weather", "  doctor"})
+  for (const char* word : {"  render", "  hdri", "  compare", "  presets", "  fields", "  check", "  info", "  noise",
+                           "  weather", "  doctor"})
     EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.out.rfind("welkin ", 0), 0u);

@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <ImfArray.h>
+#include <ImfEnvmap.h>
 #include <ImfFloatAttribute.h>
 #include <ImfRgbaFile.h>
 #include <ImfStandardAttributes.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -17,6 +19,7 @@
 #include "welkin/io/file.hpp"
 #include "welkin/io/png.hpp"
 #include "welkin/io/raw_volume.hpp"
+#include "welkin/scene/environment.hpp"
 
 namespace welkin {
 namespace {
@@ -178,6 +181,33 @@ TEST_F(Pictures, ExrStatesWhereAndWhen) {
   EXPECT_EQ(Imf::longitude(exr.header()), -9.25f);
   EXPECT_EQ(Imf::wrapmodes(exr.header()), "periodic,clamp");
   EXPECT_EQ(exr.header().typedAttribute<Imf::FloatAttribute>("welkin:centerHeading").value(), 90.0f);
+}
+
+// OpenEXR's own map of an environment's pixels, whose outermost ones lie on the very edge of the picture or face. Its
+// axes in ours: +Z the centre's heading, here north, +X west, +Y up.
+TEST_F(Pictures, EnvironmentsLieAsOpenExrReadsThem) {
+  const auto world = [](const Imath::V3f& d) { return glm::dvec3(-d.x, d.z, d.y) / static_cast<double>(d.length()); };
+  constexpr int kSide = 9;
+  const EnvironmentPixels cube(environmentCameras(Camera{}, EnvironmentLayout::cube, 0.0), kSide);
+  const Imath::Box2i faces(Imath::V2i(0, 0), Imath::V2i(kSide - 1, 6 * kSide - 1));
+  for (int face = 0; face < 6; ++face)
+    for (int j = 0; j < kSide; ++j)
+      for (int i = 0; i < kSide; ++i) {
+        const auto f = static_cast<Imf::CubeMapFace>(face);
+        const Imath::V2f in(static_cast<float>(i), static_cast<float>(j));
+        const Imath::V2f at = Imf::CubeMap::pixelPosition(f, faces, in);
+        const glm::dvec3 theirs = world(Imf::CubeMap::direction(f, faces, in));
+        // From pixel centres on the edges to pixel centres half a pixel inside.
+        const double x = static_cast<double>(at.x) / (kSide - 1) * kSide;
+        const double y = (static_cast<double>(at.y) - face * kSide) / (kSide - 1);
+        const glm::dvec3 ours = cube.direction(x, face * kSide + std::clamp(y, 1e-6, 1.0 - 1e-6) * kSide);
+        ASSERT_LT(glm::distance(ours, theirs), 1e-5) << face << " " << i << " " << j;
+      }
+  const EnvironmentPixels latlong(environmentCameras(Camera{}, EnvironmentLayout::latlong, 0.0), 20);
+  const Imath::Box2i window(Imath::V2i(0, 0), Imath::V2i(20, 10));
+  for (float y = 0; y <= 10; ++y)
+    for (float x = 0; x <= 20; ++x)
+      ASSERT_LT(glm::distance(latlong.direction(x, y), world(Imf::LatLongMap::direction(window, {x, y}))), 1e-5);
 }
 
 // A sun does not fit in half precision; it must not turn into infinity unnoticed.

@@ -11,6 +11,7 @@
 #include "welkin/density/law-inl.hpp"
 #include "welkin/light/law-inl.hpp"
 #include "welkin/noise/law-inl.hpp"
+#include "welkin/scene/law-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace welkin::HWY_NAMESPACE::law {

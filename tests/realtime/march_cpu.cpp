@@ -131,7 +131,7 @@ Image marchOnCpu(const Scene& scene, const Frame& frame) {
     in.sheets.push_back(sheetParams(sheet, glm::dvec2(frame.position), frame.time, scene.seed));
   drawWeather(scene, glm::dvec2(frame.position), drift, in, textures);
   drawNoise(scene, in, textures);
-  const float pixel = 2.0f * glm::length(glm::vec3(f.rayX)) / static_cast<float>(frame.width);
+  const float pixel = f.options.w;
   const law::MarchParams march =
       marchParams(scene, planet, sun, sky.light, pixel, frame.background == Background::skyAndGround);
   const law::AtmosphereParams& air = sky.params.air;
@@ -141,7 +141,7 @@ Image marchOnCpu(const Scene& scene, const Frame& frame) {
     for (std::size_t i = begin; i < end; ++i) {
       const float x = static_cast<float>(i % frame.width), y = static_cast<float>(i / frame.width);
       const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) * glm::vec2(f.size.z, f.size.w) * 2.0f - 1.0f;
-      const glm::vec3 dir = glm::normalize(glm::vec3(f.ray + f.rayX * ndc.x + f.rayY * ndc.y));
+      const glm::vec3 dir = glm::normalize(law::cameraRay(ndc, f.camera));
       own.dither = whiteNoise(static_cast<int>(x) + 4096, static_cast<int>(y) + 4096);
       glm::vec4 colour;
       float depth = 0.0f, samples = 0.0f;

@@ -153,9 +153,10 @@ TEST_P(UniformBlocks, SkyBlockLiesAsInCpp) {
 }
 
 TEST_P(UniformBlocks, FrameLiesAsInCpp) {
-  const Offsets expected{{"uRay", offsetof(FrameParams, ray)},
-                         {"uRayX", offsetof(FrameParams, rayX)},
-                         {"uRayY", offsetof(FrameParams, rayY)},
+  const Offsets expected{{"uCamera.forward", offsetof(FrameParams, camera.forward)},
+                         {"uCamera.right", offsetof(FrameParams, camera.right)},
+                         {"uCamera.above", offsetof(FrameParams, camera.above)},
+                         {"uCamera.angles", offsetof(FrameParams, camera.angles)},
                          {"uSize", offsetof(FrameParams, size)},
                          {"uMarchSize", offsetof(FrameParams, marchSize)},
                          {"uOffset", offsetof(FrameParams, offset)},
@@ -167,7 +168,7 @@ TEST_P(UniformBlocks, FrameLiesAsInCpp) {
                          {"uWind", offsetof(FrameParams, wind)},
                          {"uOptions", offsetof(FrameParams, options)},
                          {"uTarget", offsetof(FrameParams, target)}};
-  EXPECT_EQ(offsets("", "Frame", "uRay.x"), expected);
+  EXPECT_EQ(offsets("", "Frame", "uCamera.forward.x"), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, UniformBlocks, testing::Values(gl::ContextKind::desktop, gl::ContextKind::es),

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "welkin/scene/camera.hpp"
+
 namespace welkin::realtime {
 
 namespace {
@@ -16,6 +18,14 @@ glm::mat3 worldAxes(UpAxis up) {
   return up == UpAxis::z ? glm::mat3(1.0f) : glm::mat3(glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, -1, 0));
 }
 
+// What the composite pass shows behind the clouds: 0 the host's picture, 1 the sky, 2 the sky with the sun's disc; 3
+// asks for the transmittance instead.
+float behindClouds(const Frame& frame) {
+  if (frame.output == Output::transmittance) return 3.0f;
+  if (frame.background == Background::host) return 0.0f;
+  return frame.output == Output::light ? 2.0f : 1.0f;
+}
+
 double fraction(double x) { return x - std::floor(x); }
 
 }  // namespace
@@ -24,11 +34,24 @@ FrameParams frameParams(const Frame& frame, int width, int height, int interleav
   FrameParams p{};
   const glm::mat4& projection = frame.projection;
   const glm::mat3 worldFromEye = worldAxes(frame.up) * glm::transpose(glm::mat3(frame.view));
-  // An eye ray is ((x + P20) / P00, (y + P21) / P11, -1), whatever the depth convention.
-  const float x = 1.0f / projection[0][0], y = 1.0f / projection[1][1];
-  p.ray = glm::vec4(worldFromEye * glm::vec3(projection[2][0] * x, projection[2][1] * y, -1.0f), 0.0f);
-  p.rayX = glm::vec4(worldFromEye * glm::vec3(x, 0.0f, 0.0f), 0.0f);
-  p.rayY = glm::vec4(worldFromEye * glm::vec3(0.0f, y, 0.0f), 0.0f);
+  float pixelAngle = 0.0f;
+  if (frame.mapping == Projection::equirectangular) {
+    p.camera.forward = glm::vec4(-worldFromEye[2], 1.0f);
+    p.camera.right = glm::vec4(worldFromEye[0], 0.0f);
+    p.camera.above = glm::vec4(worldFromEye[1], 0.0f);
+    p.camera.angles = panoramaAngles(frame.panorama.x, frame.panorama.y, frame.panorama.z, frame.panorama.w);
+    p.clipFromWorld =
+        glm::transpose(glm::mat4(p.camera.right, p.camera.above, glm::vec4(0.0f), glm::vec4(-worldFromEye[2], 0.0f)));
+    pixelAngle = 2.0f * p.camera.angles.z / static_cast<float>(frame.width);
+  } else {
+    // An eye ray is ((x + P20) / P00, (y + P21) / P11, -1), whatever the depth convention.
+    const float x = 1.0f / projection[0][0], y = 1.0f / projection[1][1];
+    p.camera.forward = glm::vec4(worldFromEye * glm::vec3(projection[2][0] * x, projection[2][1] * y, -1.0f), 0.0f);
+    p.camera.right = glm::vec4(worldFromEye * glm::vec3(x, 0.0f, 0.0f), 0.0f);
+    p.camera.above = glm::vec4(worldFromEye * glm::vec3(0.0f, y, 0.0f), 0.0f);
+    p.clipFromWorld = projection * glm::mat4(glm::transpose(worldFromEye));
+    pixelAngle = 2.0f * glm::length(glm::vec3(p.camera.right)) / static_cast<float>(frame.width);
+  }
   const auto size = [](int w, int h) {
     return glm::vec4(w, h, 1.0f / static_cast<float>(w), 1.0f / static_cast<float>(h));
   };
@@ -45,16 +68,17 @@ FrameParams frameParams(const Frame& frame, int width, int height, int interleav
   p.depthInfo = glm::vec4(frame.depthTexture ? 1.0f : 0.0f, projection[2][2], projection[3][2],
                           frame.depthRange == DepthRange::zeroToOne ? 1.0f : 0.0f);
   p.wind.w = frame.preExposure;
-  p.options = glm::vec4(quality.averageHistory ? 1.0f : 0.0f, quality.jitter ? 1.0f : 0.0f,
-                        frame.background == Background::host ? 0.0f : 1.0f, 0.0f);
-  p.clipFromWorld = projection * glm::mat4(glm::transpose(worldFromEye));
+  p.options =
+      glm::vec4(quality.averageHistory ? 1.0f : 0.0f, quality.jitter ? 1.0f : 0.0f, behindClouds(frame), pixelAngle);
   return p;
 }
 
 void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& moved, const glm::dvec2& drifted,
                 bool valid, float share) {
   params.timing.y = share;
-  params.timing.z = valid && last ? 1.0f : 0.0f;
+  const bool sameKind =
+      last && last->camera.forward.w == params.camera.forward.w && last->camera.angles == params.camera.angles;
+  params.timing.z = valid && sameKind ? 1.0f : 0.0f;
   params.wind = glm::vec4(glm::vec3(glm::dvec3(drifted, 0.0)), params.wind.w);
   if (!last) return;
   // A position relative to this eye, made relative to the last one, then projected as it was then.
@@ -67,22 +91,18 @@ void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& 
 }
 
 bool sameView(const FrameParams& a, const FrameParams& b) {
-  return a.clipFromWorld == b.clipFromWorld && a.size == b.size && a.wind.w == b.wind.w;
+  return a.clipFromWorld == b.clipFromWorld && a.camera.angles == b.camera.angles && a.size == b.size &&
+         a.wind.w == b.wind.w;
 }
 
 Frame frameOf(const Camera& camera, int width, int height) {
-  const double ch = std::cos(camera.heading), sh = std::sin(camera.heading);
-  const double cp = std::cos(camera.pitch), sp = std::sin(camera.pitch);
-  const double cr = std::cos(camera.roll), sr = std::sin(camera.roll);
-  const glm::dvec3 forward(sh * cp, ch * cp, sp);
-  const glm::dvec3 level(ch, -sh, 0.0);
-  const glm::dvec3 above(-sh * sp, -ch * sp, cp);
-  const glm::dvec3 right = level * cr - above * sr, top = above * cr + level * sr;
+  const glm::dmat3 axes = cameraAxes(camera);
   Frame frame;
   frame.width = width;
   frame.height = height;
   frame.position = camera.position;
-  frame.view = glm::mat4(glm::transpose(glm::dmat3(right, top, -forward)));
+  frame.mapping = camera.projection;
+  frame.view = glm::mat4(glm::transpose(glm::dmat3(axes[0], axes[1], -axes[2])));
   const float f = 1.0f / std::tan(0.5f * camera.fov);
   // Infinite far plane, depth reversed: the depth of a point is near / distance.
   frame.projection = glm::mat4(0.0f);
@@ -92,6 +112,26 @@ Frame frameOf(const Camera& camera, int width, int height) {
   frame.projection[3][2] = 0.1f;
   frame.depthRange = DepthRange::zeroToOne;
   return frame;
+}
+
+Frame tileOf(const Frame& whole, int x, int y, int width, int height) {
+  Frame tile = whole;
+  tile.width = width;
+  tile.height = height;
+  const glm::dvec2 share(static_cast<double>(width) / whole.width, static_cast<double>(height) / whole.height);
+  const glm::dvec2 centre((x + 0.5 * width) / whole.width, (y + 0.5 * height) / whole.height);
+  if (whole.mapping == Projection::equirectangular) {
+    const glm::dvec4& p = whole.panorama;
+    tile.panorama = {p.x + (centre.x - 0.5) * p.z, p.y + (centre.y - 0.5) * p.w, p.z * share.x, p.w * share.y};
+    return tile;
+  }
+  // What was ndc `n` becomes (n - middle) / share.
+  for (int axis = 0; axis < 2; ++axis) {
+    const double middle = 2.0 * centre[axis] - 1.0;
+    tile.projection[axis][axis] = static_cast<float>(whole.projection[axis][axis] / share[axis]);
+    tile.projection[2][axis] = static_cast<float>((whole.projection[2][axis] + middle) / share[axis]);
+  }
+  return tile;
 }
 
 }  // namespace welkin::realtime

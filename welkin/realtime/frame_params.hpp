@@ -3,13 +3,16 @@
 #include <glm/glm.hpp>
 
 #include "welkin/realtime/renderer.hpp"
+#include "welkin/scene/law.hpp"
 
 namespace welkin::realtime {
 
 struct FrameParams {
-  glm::vec4 ray, rayX, rayY, size, marchSize, offset, timing, depthInfo;
+  law::CameraParams camera;
+  glm::vec4 size, marchSize, offset, timing, depthInfo;
   glm::vec4 previous0, previous1, previous3, wind, options, target;
-  glm::mat4 clipFromWorld;  // of positions relative to the eye, east-north-up; the shaders' block ends before it
+  // Of positions relative to the eye, east-north-up; for a panorama to its own axes. The shaders' block ends before it.
+  glm::mat4 clipFromWorld;
 };
 
 // `frames`: number of this frame since the view's history began.
@@ -24,7 +27,10 @@ void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& 
 // Whether two frames look the same way (position and time apart).
 bool sameView(const FrameParams& a, const FrameParams& b);
 
-// A perspective camera's frame: view and projection of the scene's camera for a picture of this size.
+// The frame of the scene's camera for a picture of this size.
 Frame frameOf(const Camera& camera, int width, int height);
+
+// The part of a frame whose lower left pixel is (x, y): a picture too large for one target is drawn in such parts.
+Frame tileOf(const Frame& whole, int x, int y, int width, int height);
 
 }  // namespace welkin::realtime

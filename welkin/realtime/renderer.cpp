@@ -238,7 +238,9 @@ void Renderer::State::makeWeather(const Scene& next, const CustomTextures& custo
 }
 
 void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
-  const int scale = scene.quality.historyScale, interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
+  // A panorama's history is as large as its target: it could not be filtered across the seam and the poles.
+  const int scale = frame.mapping == Projection::equirectangular ? 1 : scene.quality.historyScale;
+  const int interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
   const int width = (frame.width + scale - 1) / scale, height = (frame.height + scale - 1) / scale;
   if (view.history[0] && view.width == width && view.height == height && view.interleave == interleave &&
       static_cast<bool>(view.samples) == counting)
@@ -280,8 +282,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
     block.sheets[i] = sheetParams(scene.sheets[i], glm::dvec2(position), drift.time, scene.seed);
   block.air = sky.params().air;
   layersBuffer.upload(&block, sizeof block);
-  const float pixelAngle = 2.0f * glm::length(glm::vec3(params.rayX)) / static_cast<float>(frame.width);
-  const law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), pixelAngle,
+  const law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), params.options.w,
                                          frame.background == Background::skyAndGround);
   marchBuffer.upload(&m, sizeof m);
 
@@ -367,6 +368,8 @@ void Renderer::render(View& view, const Frame& frame) {
     throw Error(
         ErrorKind::badInput, "",
         fmt::format("a picture of {}x{} pixels cannot be drawn; edges go from 1 to 16384", frame.width, frame.height));
+  if (frame.mapping == Projection::equirectangular && frame.depthTexture != 0)
+    throw Error(ErrorKind::badInput, "", "an equirectangular picture takes no depth of the host");
   const gl::StateGuard guard(s.gl);
   s.gl.BindVertexArray(s.triangle.id());
   s.makeTargets(v, frame);

@@ -22,19 +22,28 @@ enum class DepthRange { minusOneToOne, zeroToOne };
 // picture.
 enum class Background { skyAndGround, sky, host };
 
+// What the target receives: light; light without the sun's own disc; or, in every channel, how much of what is behind
+// the clouds and the ground comes through.
+enum class Output { light, lightWithoutSunDisc, transmittance };
+
 // One picture to be drawn. Positions in metres.
 struct Frame {
   int width = 0, height = 0;   // of the target, from its lower left corner
   unsigned framebuffer = 0;    // its first colour attachment receives linear light
   glm::mat4 view{1.0f};        // world to eye; its translation is not used
   glm::mat4 projection{1.0f};  // without jitter; forward, reversed and infinite depth are told apart by its numbers
-  glm::dvec3 position{0.0};    // of the eye in the host's world
+  // equirectangular: `view` gives the axes, `projection` is not used, and there is no host depth. `panorama` is the
+  // part that the target shows: centre x and y, width and height, in shares of the whole; y is 0 at the nadir.
+  Projection mapping = Projection::perspective;
+  glm::dvec4 panorama{0.5, 0.5, 1.0, 1.0};
+  glm::dvec3 position{0.0};  // of the eye in the host's world
   UpAxis up = UpAxis::z;
   Background background = Background::skyAndGround;
   unsigned depthTexture = 0;  // the host's scene depth, as large as the target; 0: none
   DepthRange depthRange = DepthRange::minusOneToOne;
   double time = 0.0;         // s, moves the clouds
   float preExposure = 1.0f;  // factor on kcd/m^2 before it is written
+  Output output = Output::light;
 };
 
 // A view's memory: one for each camera, mirror or cube face that is drawn again and again.

@@ -39,8 +39,17 @@ struct FieldTable<Ground> {
   }
 };
 
+// perspective: as a lens sees. equirectangular: the whole sphere, heading along x and elevation along y; the camera's
+// heading and pitch are the picture's centre.
+enum class Projection { perspective, equirectangular };
+template <>
+struct ChoiceNames<Projection> {
+  static constexpr std::array<std::string_view, 2> names{"perspective", "equirectangular"};
+};
+
 // Where the picture is taken from. East, north, up in metres; up is above the ground at the origin.
 struct Camera {
+  Projection projection = Projection::perspective;
   glm::dvec3 position{0.0, 0.0, 150.0};
   float heading = 0.0f;  // rad, compass
   float pitch = 0.14f;   // rad, above the horizon
@@ -50,11 +59,13 @@ struct Camera {
 template <>
 struct FieldTable<Camera> {
   static auto make() {
-    return fieldRows(field<&Camera::position, kMetres>("position", {-1e7, 1e7}, {-10000, 10000}, "east, north, up"),
-                     field<&Camera::heading, kDegrees>("heading", {-360, 360}, {0, 360}, "compass heading of the view"),
-                     field<&Camera::pitch, kDegrees>("pitch", {-90, 90}, {}, "angle above the horizon"),
-                     field<&Camera::roll, kDegrees>("roll", {-180, 180}, {}, "tilt to the right"),
-                     field<&Camera::fov, kDegrees>("fov", {1, 170}, {20, 110}, "horizontal angle of view"));
+    return fieldRows(
+        field<&Camera::projection>("projection", "perspective, or equirectangular: all directions at once"),
+        field<&Camera::position, kMetres>("position", {-1e7, 1e7}, {-10000, 10000}, "east, north, up"),
+        field<&Camera::heading, kDegrees>("heading", {-360, 360}, {0, 360}, "compass heading of the view"),
+        field<&Camera::pitch, kDegrees>("pitch", {-90, 90}, {}, "angle above the horizon"),
+        field<&Camera::roll, kDegrees>("roll", {-180, 180}, {}, "tilt to the right"),
+        field<&Camera::fov, kDegrees>("fov", {1, 170}, {20, 110}, "horizontal angle of view of a perspective"));
   }
 };
 

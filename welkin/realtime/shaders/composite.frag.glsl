@@ -21,9 +21,14 @@ void main() {
   vec4 cloud = textureLod(uHistory, vUv, 0.0);
   vec3 ray = rayAt(vUv * 2.0 - 1.0);
   bool open = hostDistance(uHostDepth, vUv, ray) > 5e7;
-  if (uOptions.z > 0.5 && open) {
+  if (uOptions.z > 2.5) {
+    oColour = vec4(cloud.aaa, 0.0);
+  } else if (uOptions.z > 0.5 && open) {
     vec3 dir = normalize(ray);
-    vec3 behind = lookupSky(uSkyView, uAir, dir) + sunDisc(uAir, dir, length(uRayX.xyz) * 2.0 * uTarget.z);
+    vec3 behind = lookupSky(uSkyView, uAir, dir);
+    if (uOptions.z > 1.5)
+      behind += sunDisc(uAir, dir, uOptions.w) *
+                lookupTransmittanceToSun(uTransmittance, uAir, uAir.cameraAltitude, dir.z);
     oColour = vec4(cloud.rgb + cloud.a * min(behind * uWind.w, vec3(60000.0)), 0.0);
   } else {
     oColour = cloud;

@@ -1,22 +1,23 @@
-// What all passes of a view know: rays, sizes, the host's depth.
+// What all passes of a view know: rays, sizes, the host's depth. Includers have the law's vocabulary before it.
+#include "welkin/scene/camera.glsl"
+
 layout(std140) uniform Frame {
-  vec4 uRay;          // xyz: direction of the picture's centre (not normalised)
-  vec4 uRayX;         // per unit of x in [-1, 1]
-  vec4 uRayY;
+  CameraParams uCamera;
   vec4 uSize;         // history width, height, 1 / width, 1 / height
   vec4 uMarchSize;    // march target width, height, 1 / width, 1 / height
   vec4 uOffset;       // xy: pixel of the block that this frame marches, zw: shift inside the pixel
   vec4 uTiming;       // x: frame number, y: share of the new sample, z: 1 when history is valid, w: interleave
   vec4 uDepthInfo;    // x: 1 when the host gives depth, y: P22, z: P32, w: 1 when ndc z = depth
-  vec4 uPrevious0;    // rows of the last frame's clip transform of positions relative to this camera
+  vec4 uPrevious0;    // rows of the last frame's clip transform of positions relative to this camera; of a panorama, its
+                      // right, above and forward
   vec4 uPrevious1;
   vec4 uPrevious3;
   vec4 uWind;         // xyz: way of the wind since the last frame, w: pre-exposure
-  vec4 uOptions;      // x: average history, y: jitter, z: draw the sky, w: cosine of the sun's radius
+  vec4 uOptions;      // x: average history, y: jitter, z: what is behind (frame_params.cpp), w: rad of a target pixel
   vec4 uTarget;       // target width, height, 1 / width, 1 / height
 };
 
-vec3 rayAt(vec2 ndc) { return uRay.xyz + uRayX.xyz * ndc.x + uRayY.xyz * ndc.y; }
+vec3 rayAt(vec2 ndc) { return cameraRay(ndc, uCamera); }
 
 // Distance along the ray of the host's depth at uv, or far away.
 float hostDistance(sampler2D depth, vec2 uv, vec3 ray) {

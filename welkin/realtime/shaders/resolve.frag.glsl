@@ -1,4 +1,5 @@
 // Resolve pass: the new pixels of this frame and the reprojected old ones become the cloud history.
+#include "welkin/base/law.glsl"
 #include "welkin/realtime/shaders/frame.glsl"
 
 uniform sampler2D uMarched;
@@ -15,6 +16,14 @@ vec4 historyAt(vec2 uv) {
   return sum * (1.0 / 9.0);
 }
 
+// Where the last picture showed a direction in its axes, in [0, 1]; z is not positive where it did not.
+vec3 panoramaUv(vec3 eye) {
+  float turn = atan(eye.x, eye.z) - uCamera.angles.x;
+  turn -= 6.28318531 * floor(turn / 6.28318531 + 0.5);
+  float rise = atan(eye.y, length(eye.xz)) - uCamera.angles.y;
+  return vec3(vec2(turn, rise) / uCamera.angles.zw * 0.5 + 0.5, 1.0);
+}
+
 void main() {
   vec2 pixel = floor(gl_FragCoord.xy);
   ivec2 block = ivec2(pixel / uTiming.w);
@@ -28,8 +37,10 @@ void main() {
   vec3 position = normalize(rayAt(uv * 2.0 - 1.0)) * depth - uWind.xyz;
   vec4 p = vec4(position, 1.0);
   vec3 clip = vec3(dot(uPrevious0, p), dot(uPrevious1, p), dot(uPrevious3, p));
-  vec2 before = clip.xy / max(clip.z, 1e-6) * 0.5 + 0.5;
-  bool known = uTiming.z > 0.5 && clip.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
+  vec3 shown = vec3(clip.xy / max(clip.z, 1e-6) * 0.5 + 0.5, clip.z);
+  if (uCamera.forward.w > 0.5) shown = panoramaUv(clip);
+  vec2 before = shown.xy;
+  bool known = uTiming.z > 0.5 && shown.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
   vec4 old = historyAt(before);
   vec4 kept = known ? old : fresh;
   oColour = marched ? mix(kept, fresh, known ? uTiming.y : 1.0) : kept;
