@@ -34,7 +34,9 @@ function(welkin_room NAME)
       find_package(PNG REQUIRED)
       find_package(OpenEXR REQUIRED)
       find_package(tomlplusplus REQUIRED)
-      target_link_libraries(${TARGET} ${VISIBILITY} PNG::PNG OpenEXR::OpenEXR tomlplusplus::tomlplusplus)
+      find_package(nlohmann_json REQUIRED)
+      target_link_libraries(${TARGET} ${VISIBILITY} PNG::PNG OpenEXR::OpenEXR tomlplusplus::tomlplusplus
+                                                    $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
       if(WELKIN_OPENVDB)
         target_link_libraries(${TARGET} ${VISIBILITY} OpenVDB::openvdb)
         set_source_files_properties(${PROJECT_SOURCE_DIR}/welkin/io/vdb.cpp PROPERTIES

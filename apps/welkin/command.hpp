@@ -56,6 +56,8 @@ void addInfo(CLI::App& app);
 void addNoise(CLI::App& app);
 void addWeather(CLI::App& app);
 void addVdb(CLI::App& app);
+void addFlux(CLI::App& app);
+void addValidate(CLI::App& app);
 void addDoctor(CLI::App& app);
 
 }  // namespace welkin::app

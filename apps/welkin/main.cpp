@@ -60,6 +60,8 @@ int run(int argc, char** argv) {
   addNoise(app);
   addWeather(app);
   addVdb(app);
+  addFlux(app);
+  addValidate(app);
   addDoctor(app);
   try {
     app.parse(argc, argv);

@@ -15,6 +15,8 @@ namespace welkin::HWY_NAMESPACE {
 // The state of one generator in each lane.
 struct Random {
   law::Uint a, b, c, d;
+  HWY_INLINE Random() {}  // a compiler's own would be generated outside of the instruction set
+  HWY_INLINE Random(law::Uint s0, law::Uint s1, law::Uint s2, law::Uint s3) : a(s0), b(s1), c(s2), d(s3) {}
 };
 
 HWY_INLINE Random select(law::Mask mask, const Random& x, const Random& y) {
