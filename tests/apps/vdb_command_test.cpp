@@ -28,7 +28,7 @@ class VdbCommand : public testing::Test {
     return test::run(std::string("vdb stratocumulus -q --set noise.profile.base_size=32 ") +
                      (elsewhere ? "" : "--voxel 50 --region 0,0,2000,1200,600,1800 ") + arguments);
   }
-  const fs::path folder = fs::temp_directory_path() / "welkin_vdb_command";
+  const fs::path folder = fs::temp_directory_path() / ("welkin_vdb_command_" + std::to_string(getpid()));
 };
 
 TEST_F(VdbCommand, AxesUnitsAndMeaningsAgree) {
