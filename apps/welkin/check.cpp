@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "apps/welkin/command.hpp"
+#include "welkin/io/grids.hpp"
 
 namespace welkin::app {
 
@@ -11,8 +12,12 @@ void addCheck(CLI::App& app) {
   arguments->addTo(*command, SkyArguments::Need::required);
   command->callback([arguments] {
     const Scene scene = arguments->scene();
-    fmt::print("{}: a sky of {} layer{} and {} sheet{}\n", arguments->sky, scene.layers.size(),
-               scene.layers.size() == 1 ? "" : "s", scene.sheets.size(), scene.sheets.size() == 1 ? "" : "s");
+    const auto counted = [](std::size_t n, const char* what) {
+      return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+    };
+    fmt::print("{}: a sky of {} and {}{}\n", arguments->sky, counted(scene.layers.size(), "layer"),
+               counted(scene.sheets.size(), "sheet"),
+               scene.grids.empty() ? "" : " and " + counted(loadGrids(scene).size(), "grid"));
   });
 }
 

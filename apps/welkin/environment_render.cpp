@@ -5,6 +5,7 @@
 #include "apps/welkin/picture.hpp"
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/atmosphere/tables.hpp"
+#include "welkin/io/grids.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/offscreen.hpp"
 #include "welkin/scene/features.hpp"
@@ -47,6 +48,7 @@ Environment renderEnvironment(const Scene& source, const EnvironmentOptions& opt
   const int frames = options.frames > 0 ? options.frames : kMarches;
   realtime::CustomTextures textures;
   textures.weatherMaps = weatherMaps(scene);
+  textures.grids = loadGrids(scene);
   Environment out{Image(pixels.width(), pixels.height(), 3), {}, {}};
   out.light.features = featuresOf(scene);
 

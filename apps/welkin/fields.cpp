@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* kindName(FieldKind kind) {
-  static constexpr const char* kNames[] = {"real", "integer", "boolean", "choice", "text", "picture", "vector"};
+  static constexpr const char* kNames[] = {"real", "integer", "boolean", "choice", "text", "file", "vector"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -66,7 +66,7 @@ std::string limits(const Field& f) {
 void printText(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     const std::string table = tableName(section.path);
-    const bool list = table == "layer" || table == "sheet";
+    const bool list = table == "layer" || table == "sheet" || table == "grid";
     fmt::print("{}  {}\n",
                table.empty() ? "(top level)"
                : list        ? fmt::format("[[{}]]", table)
@@ -114,6 +114,7 @@ void addFields(CLI::App& app) {
   command->callback([json, markdown] {
     Scene scene;
     scene.sheets.emplace_back();
+    scene.grids.emplace_back();
     const std::vector<Section> sections = sectionsOf(scene);
     if (*json)
       printJson(sections);

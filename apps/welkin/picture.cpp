@@ -7,6 +7,7 @@
 #include "welkin/base/tone.hpp"
 #include "welkin/io/exr.hpp"
 #include "welkin/io/file.hpp"
+#include "welkin/io/grids.hpp"
 #include "welkin/io/hdr.hpp"
 #include "welkin/io/png.hpp"
 #include "welkin/realtime/offscreen.hpp"
@@ -48,6 +49,7 @@ Image renderSky(const Scene& scene, const RenderOptions& options) {
   realtime::Offscreen screen(options.width, options.height);
   realtime::CustomTextures textures;
   textures.weatherMaps = weatherMaps(scene);
+  textures.grids = loadGrids(scene);
   screen.renderer().setScene(scene, textures);
   const int interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
   const int frames = options.frames > 0 ? options.frames : kSamplesPerPixel * interleave * interleave;

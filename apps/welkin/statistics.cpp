@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/welkin/picture.hpp"
+#include "welkin/io/grids.hpp"
 
 namespace welkin::app {
 
@@ -82,11 +83,13 @@ CloudStatistics summary(const std::vector<CloudColumn>& columns, double threshol
 
 DensityField densityField(const Scene& scene) {
   const std::vector<Volume> maps = weatherMaps(scene);
+  const std::vector<PlacedGrid> grids = loadGrids(scene);
   return DensityField({.layers = scene.layers,
                        .sheets = scene.sheets,
                        .noise = scene.noise,
                        .drift = {scene.wind.speed, scene.wind.from, scene.time},
                        .seed = scene.seed,
+                       .grids = grids,
                        .weatherMaps = maps});
 }
 

@@ -119,7 +119,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"format = 1\nseed = 9223372036854775807\n",
                 "a.sky.toml:2:8: seed is 9.22337e+18, outside 0 to 2.14748e+09"},
         Refused{"format = 1\n[[layer]]\n[layer.weather]\nmap = \"no.png\"\n",
-                "a.sky.toml:4:7: layer.weather.map names the picture 'no.png', which does not exist"},
+                "a.sky.toml:4:7: layer.weather.map names the file 'no.png', which does not exist"},
+        Refused{"format = 1\n[[grid]]\nfile = \"no.vdb\"\n",
+                "a.sky.toml:3:8: grid.file names the file 'no.vdb', which does not exist"},
+        Refused{"format = 1\n[[grid]]\nvalues = \"lwc\"\n",
+                "a.sky.toml:3:10: grid.values is \"lwc\", but must be one of \"file\", \"normalized\", \"extinction\", "
+                "\"water\""},
         Refused{"format = 1\n[sun]\ndate = \"2026-02-30\"\n",
                 "a.sky.toml:3:8: sun.date is \"2026-02-30\", but that month has days 1 to 28"},
         Refused{"format = 1\n[layer]\nbase = 1\n", "a.sky.toml:2:1: 'layer' is a list of tables; write [[layer]]"},
@@ -167,13 +172,16 @@ TEST(SkyFile, TheExampleOfTheDocsIsRight) {
   const std::string page = readFile(WELKIN_SOURCE_DIR "/docs/sky_file.md", 1 << 20);
   const std::size_t begin = page.find("```toml\n") + 8;
   std::string text = page.substr(begin, page.find("```", begin) - begin);
-  const std::size_t map = text.find("  map = ");
-  ASSERT_NE(map, std::string::npos);
-  text.erase(map, text.find('\n', map) - map);  // its picture is not in the docs
+  for (const char* line : {"  map = ", "file = "}) {  // its picture and its volume are not in the docs
+    const std::size_t at = text.find(line);
+    ASSERT_NE(at, std::string::npos);
+    text.erase(at, text.find('\n', at) - at);
+  }
   const Scene scene = parseSky(text, "docs");
   EXPECT_EQ(scene.quality.interleave, 4);
   EXPECT_EQ(scene.layers.at(0).profile.erosion, 0.9f);
   EXPECT_EQ(scene.sheets.size(), 1u);
+  EXPECT_EQ(scene.grids.size(), 1u);
 }
 
 TEST(SkyFile, AMissingFileIsBadInput) {

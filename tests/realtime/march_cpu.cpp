@@ -19,6 +19,8 @@ struct Sky {
   std::vector<ClipParams> clips;
   std::vector<SheetParams> sheets;
   TextureView weather, extra, base, detail, warp, nubisBase, nubisDetail, curl;
+  std::span<const PlacedGrid> grids;
+  glm::dvec2 anchor{0.0};
   float dither = 0.0f;
 };
 
@@ -31,6 +33,15 @@ FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky
                            : profileExtinction(q, footprint, sky.dither, sky.layers[i], sky.clips[i], sky.weather,
                                                sky.extra, sky.base, sky.detail, sky.warp);
     sum = Vec3(sum.x + found.x, max(sum.y, found.y), sum.z + found.z);
+  }
+  for (const PlacedGrid& grid : sky.grids) {
+    const glm::dvec3 point(glm::dvec2(q) + sky.anchor, q.z);
+    // Inside is where the outermost voxels' centres are.
+    const glm::dvec3 v =
+        (glm::dvec3(grid.fromWorld * glm::dvec4(point, 1.0)) - grid.voxels->origin()) / grid.voxels->voxel() - 0.5;
+    const glm::dvec3 last(grid.voxels->dims() - 1);
+    if (glm::any(glm::lessThan(v, glm::dvec3(0.0))) || glm::any(glm::greaterThan(v, last))) continue;
+    sum = Vec3(sum.x + grid.at(point), max(sum.y, 1.0f), sum.z);
   }
   return sum;
 }
@@ -118,7 +129,7 @@ void drawNoise(const Scene& scene, law::Sky& in, Textures& t) {
 
 }  // namespace
 
-Image marchOnCpu(const Scene& scene, const Frame& frame) {
+Image marchOnCpu(const Scene& scene, const Frame& frame, std::span<const PlacedGrid> grids) {
   const FrameParams f = frameParams(frame, frame.width, frame.height, 1, scene.quality, 0);
   const Drift drift{scene.wind.speed, scene.wind.from, frame.time};
   const law::PlanetParams planet = planetParams(frame.position);
@@ -129,11 +140,18 @@ Image marchOnCpu(const Scene& scene, const Frame& frame) {
   for (const Layer& layer : scene.layers) in.layers.push_back(layerParams(layer, frame.position, drift));
   for (const Sheet& sheet : scene.sheets)
     in.sheets.push_back(sheetParams(sheet, glm::dvec2(frame.position), frame.time, scene.seed));
+  in.grids = grids;
+  in.anchor = glm::dvec2(frame.position);
+  std::vector<Shell> shells;
+  for (const PlacedGrid& grid : grids) {
+    const WorldBox box = boundsOf(grid);
+    shells.push_back({static_cast<float>(std::max(box.low.z, 0.0)), static_cast<float>(box.high.z)});
+  }
   drawWeather(scene, glm::dvec2(frame.position), drift, in, textures);
   drawNoise(scene, in, textures);
   const float pixel = f.options.w;
   const law::MarchParams march =
-      marchParams(scene, planet, sun, sky.light, pixel, frame.background == Background::skyAndGround);
+      marchParams(scene, planet, sun, sky.light, pixel, frame.background == Background::skyAndGround, shells);
   const law::AtmosphereParams& air = sky.params.air;
   Image image(frame.width, frame.height, 4);
   parallelFor(image.pixels.size() / 4, 64, [&](std::size_t begin, std::size_t end) {

@@ -23,7 +23,7 @@ inline FieldValue randomValue(const Field& f, std::mt19937& random) {
       return random() % 2 == 0;
     case FieldKind::choice:
       return std::string(f.choices[random() % f.choices.size()]);
-    case FieldKind::picture:
+    case FieldKind::file:
       return std::string();
     case FieldKind::text: {
       if (f.name == std::string_view("date")) return "19" + std::to_string(10 + random() % 90) + "-02-28";
@@ -51,6 +51,10 @@ inline Scene randomScene(unsigned seed, double share = 0.5) {
   for (const Section& section : sectionsOf(scene))
     for (const Field& f : section.fields)
       if (between(random, 0, 1) < share) assign(scene, section, f, randomValue(f, random));
+  scene.grids.resize(random() % (kMaxGrids + 1));
+  for (const Section& section : sectionsOf(scene))
+    for (const Field& f : section.fields)
+      if (section.path.starts_with("grid.")) assign(scene, section, f, randomValue(f, random));
   return scene;
 }
 

@@ -85,7 +85,7 @@ TEST(Sections, SameSceneSeesEveryField) {
   for (std::size_t i = 0; i < sections; ++i) {
     const auto fields = sectionsOf(counted)[i].fields;
     for (const Field& f : fields) {
-      if (f.kind == FieldKind::picture) continue;
+      if (f.kind == FieldKind::file) continue;
       Scene other = fullScene();
       const Section s = sectionsOf(other)[i];
       FieldValue value = f.get(s.object);
@@ -155,7 +155,7 @@ TEST(SetField, SaysWhatIsWrong) {
   EXPECT_EQ(refusal("layer.2.base=3"), "layer.2.base=3: the sky has 2 [[layer]]; they are counted from 0");
   EXPECT_EQ(refusal("camera.position=1,2"), "camera.position=1,2: camera.position must be three numbers, [x, y, z]");
   EXPECT_EQ(refusal("layer.weather.map=no.png"),
-            "layer.weather.map=no.png: layer.0.weather.map names the picture 'no.png', which does not exist");
+            "layer.weather.map=no.png: layer.0.weather.map names the file 'no.png', which does not exist");
   EXPECT_EQ(refusal("sun.elevation=20"), "accepted");
 }
 

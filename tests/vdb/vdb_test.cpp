@@ -183,6 +183,16 @@ TEST(Vdb, RefusesWhatIsNoCloud) {
   EXPECT_NE(messageOf(WELKIN_SOURCE_DIR).find("no such file"), std::string::npos);
 }
 
+TEST(Vdb, AMarginIsAddedOnEverySide) {
+  const std::string path = test::temporary("margin.vdb");
+  const VoxelGrid ball = test::ball({20, 14, 9}, {-125.0, 400.0, 800.0}, glm::dvec3(12.5));
+  saveVdb(path, ball, {}, VolumePrecision::full);
+  const VdbGrid plain = loadVdb(path), wide = loadVdb(path, "", {}, 2);
+  EXPECT_EQ(wide.voxels.dims(), plain.voxels.dims() + 4);
+  EXPECT_EQ(wide.voxels.at({7, 8, 6}), plain.voxels.at({5, 6, 4}));
+  EXPECT_EQ(wide.voxels.interpolate({-10.0, 480.0, 850.0}), plain.voxels.interpolate({-10.0, 480.0, 850.0}));
+}
+
 TEST(Vdb, LimitsHold) {
   const std::string path = test::temporary("limits.vdb");
   saveVdb(path, test::ball({64, 64, 64}, {}, glm::dvec3(10.0)), {}, VolumePrecision::half);

@@ -43,7 +43,7 @@ std::string checkField(const Field& field, FieldValue& value) {
     case FieldKind::boolean:
       return std::holds_alternative<bool>(value) ? "" : "must be true or false";
     case FieldKind::text:
-    case FieldKind::picture:
+    case FieldKind::file:
       return std::holds_alternative<std::string>(value) ? "" : "must be a text in quotes";
     case FieldKind::vector: {
       if (!std::holds_alternative<std::array<double, 3>>(value)) return "must be three numbers, [x, y, z]";

@@ -38,8 +38,8 @@ struct Range {
   double high = std::numeric_limits<double>::infinity();
 };
 
-// `picture` is a text: the path of a picture, relative to the file that names it; empty for none.
-enum class FieldKind { real, integer, boolean, choice, text, picture, vector };
+// `file` is a text: the path of a file, relative to the sky file that names it; empty for none.
+enum class FieldKind { real, integer, boolean, choice, text, file, vector };
 
 // A value as the file writes it (in the file's unit); a choice is its name, a vector three numbers.
 using FieldValue = std::variant<double, std::int64_t, bool, std::string, std::array<double, 3>>;
@@ -190,11 +190,11 @@ Field field(const char* name, std::initializer_list<std::int64_t> allowed, const
   return f;
 }
 
-// For a text that is the path of a picture.
+// For a text that is the path of a file.
 template <auto Member>
-Field pictureField(const char* name, const char* help) {
+Field fileField(const char* name, const char* help) {
   Field f = field<Member>(name, help);
-  f.kind = FieldKind::picture;
+  f.kind = FieldKind::file;
   return f;
 }
 

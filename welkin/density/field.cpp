@@ -75,8 +75,8 @@ Steps stepsOf(double low, double high, double most) {
 
 DensityField::DensityField(const DensityParts& parts, DensityTextures textures)
     : layers_(parts.layers.begin(), parts.layers.end()), sheets_(parts.sheets.begin(), parts.sheets.end()),
-      maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()), drift_(parts.drift), seed_(parts.seed),
-      textures_(std::move(textures)) {
+      grids_(parts.grids.begin(), parts.grids.end()), maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()),
+      drift_(parts.drift), seed_(parts.seed), textures_(std::move(textures)) {
   maps_.resize(layers_.size());
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     authoringMap(layers_[i], &maps_[i]);
@@ -124,6 +124,13 @@ void DensityField::addLayer(std::size_t index, std::span<const glm::dvec3> point
   });
 }
 
+void DensityField::addGrids(std::span<const glm::dvec3> points, std::span<float> sum) const {
+  for (const PlacedGrid& grid : grids_)
+    parallelFor(points.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) sum[i] += grid.at(points[i]);
+    });
+}
+
 std::vector<float> DensityField::layerExtinction(std::size_t layer, std::span<const glm::dvec3> points,
                                                  float footprint) const {
   std::vector<float> sum(points.size());
@@ -134,6 +141,7 @@ std::vector<float> DensityField::layerExtinction(std::size_t layer, std::span<co
 std::vector<float> DensityField::extinction(std::span<const glm::dvec3> points, float footprint) const {
   std::vector<float> sum(points.size());
   for (std::size_t i = 0; i < layers_.size(); ++i) addLayer(i, points, footprint, sum);
+  addGrids(points, sum);
   return sum;
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "welkin/density/grid_cloud.hpp"
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/density/params.hpp"
 #include "welkin/noise/volume.hpp"
@@ -19,6 +20,7 @@ struct DensityParts {
   NoiseSettings noise{};
   Drift drift{};
   int seed = 1;
+  std::span<const PlacedGrid> grids{};
   std::span<const Volume>
       weatherMaps{};  // one for each layer that names a map, at the layer's index; RGBA, south first
 };
@@ -49,16 +51,18 @@ class DensityField {
   std::size_t layerCount() const { return layers_.size(); }
   std::size_t sheetCount() const { return sheets_.size(); }
 
-  // Extinction in 1/m of all layers together; detail finer than `footprint` (m) is replaced by its mean, 0 is the
-  // truth.
+  const std::vector<PlacedGrid>& grids() const { return grids_; }
+
+  // Extinction in 1/m of all layers and grids together; detail finer than `footprint` (m) is replaced by its mean, 0 is
+  // the truth.
   float extinction(const glm::dvec3& point, float footprint = 0.0f) const;
   std::vector<float> extinction(std::span<const glm::dvec3> points, float footprint = 0.0f) const;
   // The same of one layer.
   std::vector<float> layerExtinction(std::size_t layer, std::span<const glm::dvec3> points,
                                      float footprint = 0.0f) const;
 
-  // Vertical optical depth between the altitudes `low` and `high` over a place, all layers, by the midpoint rule with
-  // steps of at most `step` m.
+  // Vertical optical depth between the altitudes `low` and `high` over a place, layers and grids, by the midpoint rule
+  // with steps of at most `step` m.
   double opticalDepth(const glm::dvec2& place, double low, double high, double step = 10.0) const;
 
   // One layer over many places: the integral of its extinction over its whole shell, midpoints of steps of at most
@@ -69,10 +73,12 @@ class DensityField {
   std::vector<float> sheetOpticalDepth(std::size_t sheet, std::span<const glm::dvec2> places) const;
 
  private:
+  void addGrids(std::span<const glm::dvec3> points, std::span<float> sum) const;
   void addLayer(std::size_t layer, std::span<const glm::dvec3> points, float footprint, std::span<float> sum) const;
 
   std::vector<Layer> layers_;
   std::vector<Sheet> sheets_;
+  std::vector<PlacedGrid> grids_;
   std::vector<Volume> maps_;
   Drift drift_;
   int seed_;

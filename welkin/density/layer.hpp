@@ -90,9 +90,9 @@ struct FieldTable<WeatherSettings> {
         field<&WeatherSettings::streetSpacing, kMetres>("street_spacing", {500, 50000}, {1500, 8000},
                                                         "distance between cloud streets"),
         field<&WeatherSettings::anvil>("anvil", {0, 1}, {}, "how far an anvil spreads from the tallest towers"),
-        pictureField<&WeatherSettings::map>("map",
-                                            "picture that replaces the generator's authoring map: red coverage, green "
-                                            "precipitation, blue type, alpha base height"),
+        fileField<&WeatherSettings::map>("map",
+                                         "picture that replaces the generator's authoring map: red coverage, green "
+                                         "precipitation, blue type, alpha base height"),
         field<&WeatherSettings::mapSize, kMetres>("map_size", {1000, 1e7}, {10000, 500000},
                                                   "edge of the land that the picture covers; it repeats beyond"),
         field<&WeatherSettings::mapBaseRange, kMetres>("map_base_range", {0, 5000}, {0, 2000},

@@ -80,7 +80,7 @@ std::size_t VoxelGrid::slotOf(const glm::ivec3& i) const {
 
 std::size_t VoxelGrid::placeInBrick(const glm::ivec3& i) {
   const glm::ivec3 v = i % kBrick;
-  return static_cast<std::size_t>((v.z * kBrick + v.y) * kBrick + v.x);
+  return (std::size_t(v.z) * kBrick + v.y) * kBrick + v.x;
 }
 
 float VoxelGrid::at(const glm::ivec3& i) const {

@@ -127,12 +127,13 @@ class Reader {
   }
 
   void sizeLists(const toml::table& root) {
-    const toml::node *layers = root.get("layer"), *sheets = root.get("sheet");
+    const toml::node *layers = root.get("layer"), *sheets = root.get("sheet"), *grids = root.get("grid");
     if (layers)
       scene_.layers.assign(listSize(*layers, "layer", kMaxLayers), Layer{});
-    else if (sheets)
+    else if (sheets || grids)
       scene_.layers.clear();
     if (sheets) scene_.sheets.assign(listSize(*sheets, "sheet", kMaxSheets), Sheet{});
+    if (grids) scene_.grids.assign(listSize(*grids, "grid", kMaxGrids), GridCloud{});
   }
 
   std::size_t listSize(const toml::node& node, const char* list, std::size_t most) {
@@ -166,9 +167,11 @@ class Reader {
 
   void readChild(const std::string& path, const toml::key& key, const toml::node& node) {
     const std::string child = joined(path, key.str());
-    if (path.empty() && (child == "layer" || child == "sheet")) {
+    if (path.empty() && (child == "layer" || child == "sheet" || child == "grid")) {
       const toml::array* array = node.as_array();
-      const std::size_t size = child == "layer" ? scene_.layers.size() : scene_.sheets.size();
+      const std::size_t size = child == "layer"   ? scene_.layers.size()
+                               : child == "sheet" ? scene_.sheets.size()
+                                                  : scene_.grids.size();
       for (std::size_t i = 0; array && i < size; ++i)
         if (const toml::table* element = (*array)[i].as_table()) readTable(*element, fmt::format("{}.{}", child, i));
       return;
@@ -186,7 +189,7 @@ class Reader {
   void readValue(const Section& section, const Field& field, const toml::node& node) {
     std::optional<FieldValue> value = valueOf(node);
     if (!value) value = field.kind == FieldKind::boolean ? FieldValue(std::string()) : FieldValue(false);
-    if (field.kind == FieldKind::picture)
+    if (field.kind == FieldKind::file)
       if (auto* text = std::get_if<std::string>(&*value); text && !text->empty()) *text = (folder_ / *text).string();
     const std::string wrong = assign(scene_, section, field, *value);
     if (!wrong.empty()) report(node.source(), fmt::format("{} {}", joined(tableName(section.path), field.name), wrong));
@@ -203,7 +206,7 @@ class Reader {
         known.push_back(rest.substr(0, rest.find('.')));
       }
     }
-    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet"});
+    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet", "grid"});
     const std::string near = nearestName(key, known);
     const std::string table = path.empty() ? "a sky" : tableName(path);
     return fmt::format("'{}' is not a parameter of {}; {}", key, table,
@@ -231,14 +234,14 @@ Scene loadSky(const std::string& path) { return parseSky(readFile(path, kMaxByte
 std::string tomlVersion() { return fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH); }
 
 std::string writeSky(const Scene& original) {
-  if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets)
+  if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets || original.grids.size() > kMaxGrids)
     throw Error(ErrorKind::badInput, "",
-                fmt::format("a sky has at most {} layers and {} sheets", kMaxLayers, kMaxSheets));
+                fmt::format("a sky has at most {} layers, {} sheets and {} grids", kMaxLayers, kMaxSheets, kMaxGrids));
   Scene scene = original;
   const Scene defaults;
   Scene listsOnly;
   listsOnly.layers = scene.layers;
-  const bool defaultLayers = scene.sheets.empty() && sameScene(listsOnly, defaults);
+  const bool defaultLayers = scene.sheets.empty() && scene.grids.empty() && sameScene(listsOnly, defaults);
   Quality quality = qualityPreset(scene.quality.preset);
 
   std::string out = fmt::format("format = {}\n", kFormat);
@@ -251,10 +254,11 @@ std::string writeSky(const Scene& original) {
       if (value != (followsPreset ? f.get(&quality) : f.defaultValue))
         rows += fmt::format("{} = {}\n", f.name, formatValue(f, value));
     }
-    const bool element = std::count(section.path.begin(), section.path.end(), '.') == 1 &&
-                         (section.path.starts_with("layer.") || section.path.starts_with("sheet."));
+    const bool element =
+        std::count(section.path.begin(), section.path.end(), '.') == 1 &&
+        (section.path.starts_with("layer.") || section.path.starts_with("sheet.") || section.path.starts_with("grid."));
     if (section.path.empty())
-      out += rows + (scene.layers.empty() && scene.sheets.empty() ? "layer = []\n" : "");
+      out += rows + (scene.layers.empty() && scene.sheets.empty() && scene.grids.empty() ? "layer = []\n" : "");
     else if (element)
       out += fmt::format("\n[[{}]]\n{}", tableName(section.path), rows);
     else if (!rows.empty())

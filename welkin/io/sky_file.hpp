@@ -2,8 +2,8 @@
 // Sky files: TOML with `format = 1`, described in docs/sky_file.md. The parameters are those of
 // welkin/scene/sections.hpp.
 //
-// A list in a file replaces the default list: a file with [[layer]] or [[sheet]] has exactly the layers and sheets that
-// it names, `layer = []` has none, and a file that names neither has the default layer.
+// A list in a file replaces the default list: a file with [[layer]], [[sheet]] or [[grid]] has exactly those that it
+// names, `layer = []` has none, and a file that names none of them has the default layer.
 #include <string>
 #include <string_view>
 
@@ -11,15 +11,15 @@
 
 namespace welkin {
 
-// Reads a sky. Pictures are named relative to the file's folder; the scene holds paths that can be opened. Throws Error
-// (badInput) with file, line and column.
+// Reads a sky. Pictures and volumes are named relative to the file's folder; the scene holds paths that can be opened.
+// Throws Error (badInput) with file, line and column.
 Scene loadSky(const std::string& path);
 
-// The same for text in memory; `name` stands in errors, and relative pictures are looked for in its folder.
+// The same for text in memory; `name` stands in errors, and relative files are looked for in its folder.
 Scene parseSky(std::string_view text, const std::string& name);
 
 // The sky as text that parseSky reads as the same scene: what differs from the defaults, in the order of the sections.
-// Throws Error (badInput) for more layers or sheets than a sky may have.
+// Throws Error (badInput) for more layers, sheets or grids than a sky may have.
 std::string writeSky(const Scene& scene);
 
 // The version of toml++ that Welkin was built with.

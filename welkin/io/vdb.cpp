@@ -37,8 +37,8 @@ void forVoxels(const Visit& visit) {
   for (int x = 0; x < kBrick; ++x)
     for (int y = 0; y < kBrick; ++y)
       for (int z = 0; z < kBrick; ++z)
-        visit(static_cast<openvdb::Index>((x * kBrick + y) * kBrick + z),
-              static_cast<std::size_t>((z * kBrick + y) * kBrick + x));
+        visit((static_cast<openvdb::Index>(x) * kBrick + y) * kBrick + z,
+              (static_cast<std::size_t>(z) * kBrick + y) * kBrick + x);
 }
 
 openvdb::FloatGrid::Ptr gridOf(const std::string& path, const VoxelGrid& voxels) {
@@ -229,14 +229,16 @@ void fill(VoxelGrid& grid, const Header& header, const Piece& piece, const Brick
     for (int y = low.y; y < high.y; ++y)
       for (int x = low.x; x < high.x; ++x) {
         const glm::ivec3 in = glm::ivec3(x, y, z) - corner;
-        const float v = piece.edge > kBrick ? values[0] : values[std::size_t((in.z * kBrick + in.y) * kBrick + in.x)];
+        const float v = piece.edge > kBrick ? values[0] : values[(std::size_t(in.z) * kBrick + in.y) * kBrick + in.x];
         grid.set({x, y, z}, v < 0.0f ? 0.0f : v);
       }
 }
 
-VdbGrid receiveGrid(const Source& receive, const std::string& path) {
+VdbGrid receiveGrid(const Source& receive, const std::string& path, int margin) {
   Header header{};
   receive(&header, sizeof header);
+  header.low -= margin;
+  header.dims += 2 * margin;
   auto [voxels, placement] = spaceOf(path, header);
   VdbGrid grid{std::move(voxels), placement, receiveText(receive), {}};
   std::uint32_t count = 0;
@@ -282,7 +284,7 @@ void saveVdb(const std::string& path, const VoxelGrid& voxels, std::span<const V
   });
 }
 
-VdbGrid loadVdb(const std::string& path, const std::string& name, const IsolationLimits& limits) {
+VdbGrid loadVdb(const std::string& path, const std::string& name, const IsolationLimits& limits, int margin) {
   std::error_code wrong;
   if (!std::filesystem::is_regular_file(path, wrong))
     throw Error(ErrorKind::badInput, path, "cannot be read: there is no such file");
@@ -292,7 +294,7 @@ VdbGrid loadVdb(const std::string& path, const std::string& name, const Isolatio
       path, limits, [&](const Sink& sink) { send(sink, path, name, limits.bytes); },
       [&](const Source& source) {
         try {
-          read.push_back(receiveGrid(source, path));
+          read.push_back(receiveGrid(source, path, margin));
         } catch (const Error& e) {
           if (!e.where().empty()) throw;
           throw Error(e.kind(), path, e.what());
@@ -320,7 +322,7 @@ void saveVdb(const std::string& path, const VoxelGrid&, std::span<const VolumeNo
              const std::string&) {
   absent(path);
 }
-VdbGrid loadVdb(const std::string& path, const std::string&, const IsolationLimits&) { absent(path); }
+VdbGrid loadVdb(const std::string& path, const std::string&, const IsolationLimits&, int) { absent(path); }
 
 }  // namespace welkin
 

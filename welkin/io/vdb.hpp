@@ -37,8 +37,9 @@ struct VdbGrid {
 // Reads the float grid called `name`, or if that is empty the one called "density", or else the first. Inactive voxels
 // are 0, negative values too; the background is not used. The file is read in a process of its own, so that a damaged
 // one can do no harm. Throws Error (badInput) for files that are damaged or hold no such grid, level sets, transforms
-// that are not linear, and values that are not finite.
-VdbGrid loadVdb(const std::string& path, const std::string& name = "", const IsolationLimits& limits = {});
+// that are not linear, and values that are not finite. The box is `margin` voxels of 0 larger on every side.
+VdbGrid loadVdb(const std::string& path, const std::string& name = "", const IsolationLimits& limits = {},
+                int margin = 0);
 
 bool hasOpenVdb();
 std::string openVdbVersion();  // empty without it

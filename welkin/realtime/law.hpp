@@ -1,9 +1,10 @@
 #pragma once
-// The march's parameters in C++, laid out as the shaders' uniform block.
+// The march's parameters in C++, laid out as the shaders' uniform blocks.
 #include "welkin/density/law.hpp"
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
+#include "welkin/realtime/grid.glsl"
 #include "welkin/realtime/march_params.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

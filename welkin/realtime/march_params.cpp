@@ -52,7 +52,7 @@ constexpr float kDiffusedShare = 0.22f;
 }  // namespace
 
 law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
-                             const SkyLight& light, float pixelAngle, bool drawGround) {
+                             const SkyLight& light, float pixelAngle, bool drawGround, std::span<const Shell> grids) {
   const LightingSettings& l = scene.lighting;
   const Quality& q = scene.quality;
   law::MarchParams m{};
@@ -78,7 +78,11 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
     m.top = std::max(m.top, shell.top);
     albedo = std::min(albedo, layer.cloud.albedo);
   }
-  if (scene.layers.empty()) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
+  for (const Shell& shell : grids) {
+    m.bottom = std::min(m.bottom, shell.bottom);
+    m.top = std::max(m.top, shell.top);
+  }
+  if (m.top < m.bottom) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
   m.skyIrradiance = glm::vec4(diffuse, albedo);
   m.airLight = veil.share();
   m.stepScale = kStepPerMetre * q.stepScale;

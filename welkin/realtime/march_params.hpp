@@ -1,5 +1,7 @@
 #pragma once
 // From a Scene to the parameters of the march.
+#include <span>
+
 #include "welkin/atmosphere/tables.hpp"
 #include "welkin/density/params.hpp"
 #include "welkin/realtime/law.hpp"
@@ -9,6 +11,7 @@ namespace welkin::realtime {
 
 // `pixelAngle`: rad of one pixel. `drawGround`: whether rays end on Welkin's own ground.
 law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
-                             const SkyLight& light, float pixelAngle, bool drawGround);
+                             const SkyLight& light, float pixelAngle, bool drawGround,
+                             std::span<const Shell> grids = {});
 
 }  // namespace welkin::realtime

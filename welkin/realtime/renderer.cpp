@@ -12,6 +12,7 @@
 #include "welkin/base/error.hpp"
 #include "welkin/gl/state.hpp"
 #include "welkin/realtime/frame_params.hpp"
+#include "welkin/realtime/grid_atlas.hpp"
 #include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/noise_textures.hpp"
 #include "welkin/realtime/shader_sources.hpp"
@@ -30,12 +31,13 @@ struct LayersBlock {
   law::LayerParams layers[kMaxLayers];
   law::ClipParams clips[kMaxLayers];
   law::SheetParams sheets[kMaxSheets];
+  law::GridParams grids[kMaxGrids];
   law::AtmosphereParams air;
 };
 
 // Texture fetches of one density sample: every layer reads its weather and its noises.
-double fetchesPerSample(const Scene& scene) {
-  double sum = 0.0;
+double fetchesPerSample(const Scene& scene, std::size_t grids) {
+  double sum = 2.0 * static_cast<double>(grids);  // index and brick
   for (const Layer& layer : scene.layers) {
     const law::LayerParams p = layerParams(layer, glm::dvec3(0.0), {});
     // profile: warp, weather, base, detail, and where they are used more weather, the anvil's fibres and fine detail.
@@ -92,6 +94,8 @@ struct Renderer::State {
   gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
   std::vector<gl::Texture> maps;
   std::unique_ptr<WeatherLevels> weather;
+  GridAtlas grids;
+  std::vector<PlacedGrid> placedGrids;  // that it was made of
   gl::Program march, resolve, composite, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
@@ -118,6 +122,7 @@ struct Renderer::State {
 
   void makeTextures(const Scene& next, const CustomTextures& custom);
   void makeWeather(const Scene& next, const CustomTextures& custom);
+  void makeGrids(const Scene& next, const CustomTextures& custom);
   void makeMarch();
   void makeTargets(View::State& view, const Frame& frame) const;
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const {
@@ -188,9 +193,14 @@ void Renderer::State::makeMarch() {
                           i);
     layers += "sum = vec3(sum.x + found.x, max(sum.y, found.y), sum.z + found.z); ";
   }
+  for (std::size_t i = 0; i < grids.count(); ++i)
+    layers += fmt::format(
+        "inGrid = gridExtinction(q, uGrid[{}], uGridIndex, uGridBricks); "
+        "sum = vec3(sum.x + inGrid.x, max(sum.y, inGrid.y), sum.z); ",
+        i);
   const std::string defines =
-      fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define SKY_LAYERS {}\n{}", kMaxLayers,
-                  scene.sheets.size(), layers, counting ? "#define COUNT_SAMPLES\n" : "");
+      fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n{}",
+                  kMaxLayers, scene.sheets.size(), kMaxGrids, layers, counting ? "#define COUNT_SAMPLES\n" : "");
   if (defines == marchDefines) return;
   march = gl::Program(gl, "march", defines, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
   marchDefines = defines;
@@ -206,6 +216,7 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.sunDirection = sunDirection(scene.sun);
   s.makeTextures(scene, textures);
   s.makeWeather(scene, textures);
+  s.makeGrids(scene, textures);
   s.userSky = textures.sky;
   s.scene = scene;
   s.hasScene = true;
@@ -235,6 +246,21 @@ void Renderer::State::makeWeather(const Scene& next, const CustomTextures& custo
       throw Error(ErrorKind::badInput, "", "the weather map '" + name + "' was not handed to the renderer");
     maps.push_back(given ? textureFromVolume(gl, custom.weatherMaps[i]) : gl::Texture());
   }
+}
+
+void Renderer::State::makeGrids(const Scene& next, const CustomTextures& custom) {
+  const auto named =
+      std::count_if(next.grids.begin(), next.grids.end(), [](const GridCloud& g) { return !g.file.empty(); });
+  if (custom.grids.size() < static_cast<std::size_t>(named) || custom.grids.size() > kMaxGrids)
+    throw Error(ErrorKind::badInput, "",
+                fmt::format("the sky names {} grids, and {} were handed to the renderer, which takes at most {}", named,
+                            custom.grids.size(), kMaxGrids));
+  const auto same = [](const PlacedGrid& a, const PlacedGrid& b) {
+    return a.voxels == b.voxels && a.fromWorld == b.fromWorld && a.extinction == b.extinction;
+  };
+  if (std::equal(placedGrids.begin(), placedGrids.end(), custom.grids.begin(), custom.grids.end(), same)) return;
+  grids = GridAtlas(gl, custom.grids);
+  placedGrids = custom.grids;
 }
 
 void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
@@ -280,10 +306,15 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
   }
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
     block.sheets[i] = sheetParams(scene.sheets[i], glm::dvec2(position), drift.time, scene.seed);
+  std::vector<Shell> shells;
+  for (std::size_t i = 0; i < grids.count(); ++i) {
+    block.grids[i] = grids.params(i, glm::dvec2(position));
+    shells.push_back(grids.shell(i));
+  }
   block.air = sky.params().air;
   layersBuffer.upload(&block, sizeof block);
   const law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), params.options.w,
-                                         frame.background == Background::skyAndGround);
+                                         frame.background == Background::skyAndGround, shells);
   marchBuffer.upload(&m, sizeof m);
 
   std::vector<const gl::Texture*> targets{&view.marched, &view.marchedDepth};
@@ -314,6 +345,10 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
     bind(march, "uNubisBase", nubisBase, unit++);
     bind(march, "uNubisDetail", nubisDetail, unit++);
     bind(march, "uCurl", curl, unit++);
+  }
+  if (grids.count() > 0) {
+    bind(march, "uGridIndex", grids.index(), unit++);
+    bind(march, "uGridBricks", grids.bricks(), unit++);
   }
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   if (!counting) return;
@@ -421,7 +456,7 @@ FrameCost Renderer::lastCost() {
   cost.densitySamples = state_->counting ? state_->samples : 0.0;
   cost.mostSamples = state_->counting ? state_->mostSamples : 0.0;
   cost.rays = state_->counting ? state_->rays : 0.0;
-  cost.textureFetches = cost.densitySamples * fetchesPerSample(state_->scene) +
+  cost.textureFetches = cost.densitySamples * fetchesPerSample(state_->scene, state_->grids.count()) +
                         cost.rays * (kFetchesPerRay + 3.0 * static_cast<double>(state_->scene.sheets.size()));
   return cost;
 }
@@ -443,6 +478,8 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
     add("weather extra", s.weather->extra());
   }
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
+  add("grid index", s.grids.index());
+  add("grid bricks", s.grids.bricks());
   add("no map", s.white);
   add("sky transmittance", s.sky.transmittance());
   add("sky multiple scattering", s.sky.multiScattering());

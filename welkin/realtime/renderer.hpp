@@ -85,6 +85,7 @@ struct MemoryRow {
 struct CustomTextures {
   Volume profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl;
   std::vector<Volume> weatherMaps;      // one for each layer: RGBA authoring map
+  std::vector<PlacedGrid> grids;        // of the scene's grids that name a file
   std::shared_ptr<const SkyModel> sky;  // paints the sky in place of atmosphere.model
 };
 

@@ -7,6 +7,7 @@
 #include "welkin/atmosphere/settings.hpp"
 #include "welkin/base/fields.hpp"
 #include "welkin/base/tone.hpp"
+#include "welkin/density/grid_cloud.hpp"
 #include "welkin/density/layer.hpp"
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/light/settings.hpp"
@@ -98,7 +99,7 @@ struct FieldTable<Film> {
   }
 };
 
-inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4;
+inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4, kMaxGrids = 4;
 
 struct Scene {
   std::string title;
@@ -106,6 +107,7 @@ struct Scene {
   int seed = 1;
   std::vector<Layer> layers{Layer{}};
   std::vector<Sheet> sheets;
+  std::vector<GridCloud> grids;
   Sun sun;
   Atmosphere atmosphere;
   Wind wind;

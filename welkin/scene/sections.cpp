@@ -50,6 +50,8 @@ std::vector<Section> sectionsOf(Scene& scene) {
   }
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
     all.push_back(section(fmt::format("sheet.{}", i), "a thin high cloud", scene.sheets[i]));
+  for (std::size_t i = 0; i < scene.grids.size(); ++i)
+    all.push_back(section(fmt::format("grid.{}", i), "a cloud from an OpenVDB file", scene.grids[i]));
   return all;
 }
 
@@ -94,11 +96,11 @@ std::string checkSunText(std::string_view name, const std::string& text) {
 
 std::string assign(Scene& scene, const Section& section, const Field& field, FieldValue value) {
   if (std::string wrong = checkField(field, value); !wrong.empty()) return wrong;
-  if (field.kind == FieldKind::picture) {
+  if (field.kind == FieldKind::file) {
     const std::string& path = std::get<std::string>(value);
     std::error_code ignored;
     if (!path.empty() && !std::filesystem::is_regular_file(path, ignored))
-      return fmt::format("names the picture '{}', which does not exist", path);
+      return fmt::format("names the file '{}', which does not exist", path);
   }
   if (section.object == &scene.sun && field.kind == FieldKind::text)
     if (std::string wrong = checkSunText(field.name, std::get<std::string>(value)); !wrong.empty()) return wrong;

@@ -16,6 +16,8 @@
 #include "welkin/atmosphere/sky.glsl"
 #include "welkin/realtime/shaders/frame.glsl"
 
+#include "welkin/realtime/grid.glsl"
+
 struct Sky {
   float dither;
 };
@@ -24,6 +26,7 @@ layout(std140) uniform Layers {
   LayerParams uLayer[LAYER_SLOTS];
   ClipParams uClip[LAYER_SLOTS];
   SheetParams uSheet[4];
+  GridParams uGrid[GRID_SLOTS];
   AtmosphereParams uAir;
 };
 
@@ -33,6 +36,8 @@ uniform sampler3D uWarpNoise;
 uniform sampler3D uNubisBase;
 uniform sampler3D uNubisDetail;
 uniform sampler2D uCurl;
+uniform sampler3D uGridIndex;
+uniform sampler3D uGridBricks;
 uniform sampler2DArray uWeather;
 uniform sampler2DArray uExtra;
 uniform sampler2D uTransmittance;
@@ -43,6 +48,7 @@ uniform sampler2D uHostDepth;
 vec3 skyExtinction(vec3 q, float footprint, bool full, Sky sky) {
   vec3 sum = vec3(0.0, -1.0, 0.0);
   vec3 found;
+  vec2 inGrid;
   SKY_LAYERS
   return sum;
 }
