@@ -5,6 +5,7 @@
 
 #include "apps/welkin/command.hpp"
 #include "apps/welkin/picture.hpp"
+#include "apps/welkin/traced.hpp"
 
 namespace welkin::app {
 
@@ -36,6 +37,8 @@ struct RenderArguments {
   std::string output, size = "1280x720";
   int frames = 0;
   bool quiet = false;
+  Renderer renderer = Renderer::realtime;
+  TraceOptions trace;
 };
 
 void render(const RenderArguments& arguments) {
@@ -43,6 +46,13 @@ void render(const RenderArguments& arguments) {
   const Scene scene = arguments.sky.scene();
   requirePictureFile(arguments.output);
   ProgressDisplay display("rendering", arguments.quiet ? ProgressStyle::quiet : ProgressStyle::automatic);
+  if (arguments.renderer == Renderer::path) {
+    TraceOptions options = arguments.trace;
+    options.width = size.width;
+    options.height = size.height;
+    options.progress = display.callback();
+    return traceToFile(scene, options, arguments.output);
+  }
   const Image light = renderSky(
       scene, {.width = size.width, .height = size.height, .frames = arguments.frames, .progress = display.callback()});
   savePicture(arguments.output, light, scene.film);
@@ -51,7 +61,7 @@ void render(const RenderArguments& arguments) {
 }  // namespace
 
 void addRender(CLI::App& app) {
-  auto* command = app.add_subcommand("render", "a picture of a sky by the real-time renderer");
+  auto* command = app.add_subcommand("render", "a picture of a sky, in real time or path-traced");
   auto arguments = std::make_shared<RenderArguments>();
   arguments->sky.addTo(*command, SkyArguments::Need::optional);
   command
@@ -64,6 +74,7 @@ void addRender(CLI::App& app) {
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
   arguments->sky.addPictureOptionsTo(*command);
+  addRendererOptions(*command, arguments->renderer, arguments->trace);
   command->add_flag("-q,--quiet", arguments->quiet, "no progress");
   command->callback([arguments] { render(*arguments); });
 }

@@ -43,19 +43,19 @@ struct Uint;
 
 struct Real {
   VF v;
-  HWY_INLINE Real() : v(hn::Zero(D())) {}
+  Real() = default;  // trivial, so that structs of lanes are: their implicit constructors know no target
   HWY_INLINE Real(VF x) : v(x) {}
   HWY_INLINE Real(float x) : v(hn::Set(D(), x)) {}
 };
 struct Int {
   VI v;
-  HWY_INLINE Int() : v(hn::Zero(DI())) {}
+  Int() = default;
   HWY_INLINE Int(VI x) : v(x) {}
   HWY_INLINE Int(std::int32_t x) : v(hn::Set(DI(), x)) {}
 };
 struct Uint {
   VU v;
-  HWY_INLINE Uint() : v(hn::Zero(DU())) {}
+  Uint() = default;
   HWY_INLINE Uint(VU x) : v(x) {}
   HWY_INLINE Uint(std::uint32_t x) : v(hn::Set(DU(), x)) {}
 };

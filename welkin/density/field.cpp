@@ -73,17 +73,10 @@ Steps stepsOf(double low, double high, double most) {
 
 }  // namespace
 
-DensityField::DensityField(const DensityParts& parts, DensityTextures textures)
-    : layers_(parts.layers.begin(), parts.layers.end()), sheets_(parts.sheets.begin(), parts.sheets.end()),
-      grids_(parts.grids.begin(), parts.grids.end()), maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()),
-      drift_(parts.drift), seed_(parts.seed), textures_(std::move(textures)) {
-  maps_.resize(layers_.size());
-  for (std::size_t i = 0; i < layers_.size(); ++i) {
-    authoringMap(layers_[i], &maps_[i]);
-    roundToHalf(maps_[i]);
-  }
+DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures textures) {
   const auto uses = [&](LayerShape shape) {
-    return std::any_of(layers_.begin(), layers_.end(), [&](const Layer& l) { return l.cloud.shape == shape; });
+    return std::any_of(parts.layers.begin(), parts.layers.end(),
+                       [&](const Layer& l) { return l.cloud.shape == shape; });
   };
   const auto make = [](Volume& volume, const auto& bake) {
     if (volume.texels.empty()) volume = bake();
@@ -92,14 +85,26 @@ DensityField::DensityField(const DensityParts& parts, DensityTextures textures)
   const NoiseSettings& n = parts.noise;
   if (uses(LayerShape::profile)) {
     // One base texture serves all layers, mixed as the first one asks.
-    make(textures_.profileBase, [&] { return bakeProfileBasePacked(n.profile, layers_.front().profile.billowMix); });
-    make(textures_.profileDetail, [&] { return bakeProfileDetail(n.profile); });
-    make(textures_.profileWarp, [&] { return bakeProfileWarp(n.profile); });
+    make(textures.profileBase, [&] { return bakeProfileBasePacked(n.profile, parts.layers.front().profile.billowMix); });
+    make(textures.profileDetail, [&] { return bakeProfileDetail(n.profile); });
+    make(textures.profileWarp, [&] { return bakeProfileWarp(n.profile); });
   }
   if (uses(LayerShape::nubis)) {
-    make(textures_.nubisBase, [&] { return bakeBaseShapePacked(n.baseShape); });
-    make(textures_.nubisDetail, [&] { return bakeDetailPacked(n.detail); });
-    make(textures_.curl, [&] { return bakeCurl(n.curl); });
+    make(textures.nubisBase, [&] { return bakeBaseShapePacked(n.baseShape); });
+    make(textures.nubisDetail, [&] { return bakeDetailPacked(n.detail); });
+    make(textures.curl, [&] { return bakeCurl(n.curl); });
+  }
+  return textures;
+}
+
+DensityField::DensityField(const DensityParts& parts, DensityTextures textures)
+    : layers_(parts.layers.begin(), parts.layers.end()), sheets_(parts.sheets.begin(), parts.sheets.end()),
+      grids_(parts.grids.begin(), parts.grids.end()), maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()),
+      drift_(parts.drift), seed_(parts.seed), textures_(bakeDensityTextures(parts, std::move(textures))) {
+  maps_.resize(layers_.size());
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    authoringMap(layers_[i], &maps_[i]);
+    roundToHalf(maps_[i]);
   }
 }
 

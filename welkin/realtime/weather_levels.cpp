@@ -8,22 +8,9 @@ namespace {
 constexpr double kLeash = 0.08;  // share of a level's edge that the camera may move before it is drawn again
 }
 
-double WeatherExtent::edge(int level) const { return finest * std::pow(ratio, level); }
-
 WeatherExtent weatherExtent(QualityPreset preset) {
   if (preset == QualityPreset::low || preset == QualityPreset::medium) return {256, 4, 14000.0, 3.0};
   return {512, 4, 20000.0, 2.8};
-}
-
-glm::dvec2 levelCentre(const WeatherExtent& extent, int level, const glm::dvec2& inAir) {
-  const double texel = extent.edge(level) / extent.texels;
-  return glm::floor(inAir / texel) * texel;
-}
-
-law::ClipLevel clipLevel(const WeatherExtent& extent, int level, const glm::dvec2& away) {
-  const double edge = extent.edge(level);
-  return {static_cast<float>(away.x / edge + 0.5), static_cast<float>(away.y / edge + 0.5),
-          static_cast<float>(1.0 / edge), 1.0f / static_cast<float>(extent.texels) + 0.01f};
 }
 
 WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers)
@@ -68,13 +55,12 @@ int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& posit
 law::ClipParams WeatherLevels::params(int index, const glm::dvec2& position, const Drift& drift) const {
   const glm::dvec2 inAir = position - driftOffset(drift);
   law::ClipParams clip{};
-  law::ClipLevel* levels[] = {&clip.level0, &clip.level1, &clip.level2, &clip.level3};
   clip.count = extent_.levels;
   clip.firstSlice = static_cast<float>(index * extent_.levels);
   for (int level = 0; level < extent_.levels; ++level) {
     const int slice = index * extent_.levels + level;
     const Level& cached = levels_[static_cast<std::size_t>(slice)];
-    *levels[level] = clipLevel(extent_, level, inAir - cached.centre);
+    levelOf(clip, level) = clipLevel(extent_, level, inAir - cached.centre);
   }
   return clip;
 }

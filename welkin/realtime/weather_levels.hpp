@@ -4,28 +4,13 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "welkin/density/params.hpp"
+#include "welkin/density/clip_levels.hpp"
 #include "welkin/gl/objects.hpp"
 #include "welkin/scene/quality.hpp"
 
 namespace welkin::realtime {
 
-// Size of the cached weather.
-struct WeatherExtent {
-  int texels = 512;
-  int levels = 4;
-  double finest = 20000.0;  // m, edge of level 0
-  double ratio = 2.6;       // each level against the one before
-
-  double edge(int level) const;  // m
-};
 WeatherExtent weatherExtent(QualityPreset preset);
-
-// Where a level is centred when it is drawn for a camera at `inAir` (m, in the air's own frame): on a texel's corner.
-glm::dvec2 levelCentre(const WeatherExtent& extent, int level, const glm::dvec2& inAir);
-
-// The law's view of a level from a camera `away` from its centre.
-law::ClipLevel clipLevel(const WeatherExtent& extent, int level, const glm::dvec2& away);
 
 class WeatherLevels {
  public:

@@ -1,0 +1,293 @@
+#include "welkin/density/cloud_cache.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "welkin/base/parallel.hpp"
+#include "welkin/density/bounds.hpp"
+
+namespace welkin {
+
+namespace {
+
+constexpr int kWeatherRows = 8;  // cell layers that share one look at the weather
+constexpr float kSlack = 2.0f;  // m, of altitude: what rays straightened within a cell and float rounding may be off
+
+// A box of cloud space relative to the anchor.
+struct Box {
+  glm::vec3 low, high;
+};
+
+// Lowest and highest values of a layer's weather over a rectangle.
+struct WeatherInterval {
+  Interval a, b, c, d;  // as the channels of profileWeather and nubisWeather
+};
+
+float smooth(float a, float b, float x) { return law::smoothstep(a, b, x); }
+
+// Bounds of one layer's law over boxes.
+class LayerBounds {
+ public:
+  LayerBounds(const law::LayerParams& layer, const law::ClipParams& clip, const WeatherCache& weather,
+              const TextureView& base)
+      : c_(layer), clip_(clip), texels_(weather.main.width), size_(base.width),
+        a_(weather.mainView(), 0, TexelBounds::Kind::planes), b_(weather.mainView(), 1, TexelBounds::Kind::planes),
+        extraA_(weather.extraView(), 0, TexelBounds::Kind::planes),
+        extraB_(weather.extraView(), 1, TexelBounds::Kind::planes), noise_(base, 0, TexelBounds::Kind::volume) {
+    if (c_.shape != 0) lift_ = std::make_unique<TexelBounds>(base, 1, TexelBounds::Kind::volume);
+  }
+
+  // Of the weather that points of the unsheared box read.
+  WeatherInterval weatherIn(const Box& q) const {
+    const float reach = c_.shape == 0 ? 0.5f * c_.warp * law::saturate((q.high.z - c_.base) * 0.0025f) : 0.0f;
+    const glm::vec2 low = glm::vec2(q.low) - reach, high = glm::vec2(q.high) + reach;
+    WeatherInterval found{};
+    bool any = false;
+    for (int level = 0; level < clip_.count; ++level) {
+      const law::ClipLevel& l = levelOf(clip_, level);
+      const glm::vec2 offset(l.offsetX, l.offsetY);
+      const glm::vec2 uvLow = low * l.inverseSize + offset, uvHigh = high * l.inverseSize + offset;
+      const float inner = l.margin;  // lookups use this level between inner and 1 - inner, the last one everywhere
+      const bool last = level + 1 == clip_.count;
+      if (!last && (uvHigh.x < inner || uvHigh.y < inner || uvLow.x > 1 - inner || uvLow.y > 1 - inner)) continue;
+      const float slice = clip_.firstSlice + static_cast<float>(level);
+      const glm::vec3 from(uvLow * static_cast<float>(texels_), slice), to(uvHigh * static_cast<float>(texels_), slice);
+      const WeatherInterval here{a_.between(from, to), b_.between(from, to), extraA_.between(from, to),
+                              extraB_.between(from, to)};
+      found = any ? join(found, here) : here;
+      any = true;
+      if (uvLow.x > inner && uvLow.y > inner && uvHigh.x < 1 - inner && uvHigh.y < 1 - inner) break;
+    }
+    return found;
+  }
+
+  // Of the extinction in a box of unsheared cloud space with this weather.
+  float extinctionIn(const Box& q, const WeatherInterval& w) const {
+    if (q.high.z <= c_.bottom || q.low.z >= c_.top) return 0.0f;
+    return c_.shape == 0 ? profileIn(q, w) : nubisIn(q, w);
+  }
+
+  // The box that unsheared() makes of a box.
+  Box unsheared(const Box& box) const {
+    const auto lean = [&](float z) { return c_.shear * (z - c_.base) / c_.thickness; };
+    const float a = lean(box.low.z), b = lean(box.high.z), least = std::min(a, b), most = std::max(a, b);
+    const auto spread = [&](float downwind, float& low, float& high) {
+      low -= std::max(downwind * least, downwind * most);
+      high -= std::min(downwind * least, downwind * most);
+    };
+    Box q = box;
+    spread(c_.downwindX, q.low.x, q.high.x);
+    spread(c_.downwindY, q.low.y, q.high.y);
+    return q;
+  }
+
+ private:
+  static WeatherInterval join(const WeatherInterval& x, const WeatherInterval& y) {
+    const auto both = [](const Interval& p, const Interval& q) {
+      return Interval{std::min(p.low, q.low), std::max(p.high, q.high)};
+    };
+    return {both(x.a, y.a), both(x.b, y.b), both(x.c, y.c), both(x.d, y.d)};
+  }
+
+  Interval noiseIn(const TexelBounds& bounds, const Box& q) const {
+    const float edge = static_cast<float>(size_);
+    return bounds.between((q.low * c_.noise.w + glm::vec3(c_.noise)) * edge,
+                          (q.high * c_.noise.w + glm::vec3(c_.noise)) * edge);
+  }
+
+  // profileExtinctionIn with every argument at the end of its range that gives the most.
+  float profileIn(const Box& q, const WeatherInterval& w) const {
+    const float low = q.low.z - c_.base - w.b.high, high = q.high.z - c_.base - w.b.low;  // height above the base
+    const float height = w.a.high;
+    const auto amplitudeOf = [&](float h) { return std::min(c_.lengthScale, c_.lengthFraction * h + c_.minLength); };
+    const float amplitude = amplitudeOf(height), least = amplitudeOf(w.a.low);
+    const float inside = height - low;
+    float profile = std::min({inside / (inside > 0.0f ? least : amplitude), 1.0f, (height - 20.0f) * 0.02f});
+    float ice = 0.0f;
+    if (c_.hasAnvil != 0 && w.c.high > 0.0f) {
+      const float half = c_.thickness * 0.085f * (0.15f + 0.85f * w.c.high);
+      const float reach = 0.34f * c_.thickness * smooth(0.35f, 1.0f, w.c.high);
+      const float middle = 0.76f * c_.thickness;
+      const bool meets = low - middle < half && high - middle > -half - reach;
+      const float sheet = meets ? law::saturate(4.0f * w.c.high) : -1.0f;
+      if (meets) ice = 1.0f;
+      profile = std::max(profile, sheet) + 0.075f;  // a smooth maximum with k = 0.3 exceeds both by k / 4 at most
+    } else if (c_.hasAnvil != 0) {
+      profile = std::max(profile, -1.0f) + 0.075f;
+    }
+    const float eaten = c_.erosion * (ice > 0.0f ? 0.6f : 1.0f) *
+                        (c_.baseErosion + (1.0f - c_.baseErosion) * smooth(0.0f, 260.0f, low));
+    if (profile * least <= -0.5f * c_.fineDetail) return 0.0f;
+    const Interval n = noiseIn(noise_, q);
+    const float cut = c_.baseCut * (1.0f - law::saturate(high * 0.00333333f));
+    float depth = profile - eaten * (1.0f - n.high) - cut;
+    depth *= depth > 0.0f ? amplitude : least;
+    depth += 0.5f * c_.fineDetail;  // detail only carves, except for the finest
+    const float ramp = ice > 0.0f ? std::max(c_.inverseRamp, c_.anvilRamp) : c_.inverseRamp;
+    const float dense =
+        law::saturate(depth * ramp) * smooth(0.0f, c_.baseFade, high + 2.0f * c_.baseRagged * (n.high - 0.5f));
+    const float liquid = 1.0f - c_.liquidGradient + c_.liquidGradient * std::sqrt(law::saturate(high / c_.thickness));
+    return c_.extinction * dense * liquid * std::max(1.0f, ice > 0.0f ? c_.anvilDensity : 1.0f);
+  }
+
+  // nubisExtinctionIn likewise; the height profiles are at most 1.
+  float nubisIn(const Box& q, const WeatherInterval& w) const {
+    const float low = (q.low.z - c_.base - w.d.high) / c_.thickness;
+    const float high = (q.high.z - c_.base - w.d.low) / c_.thickness;
+    if (high <= 0.0f || low >= 0.95f) return 0.0f;  // above, every profile is 0
+    // remap(x, y - 1, 1, 0, 1) = (x - y + 1) / (2 - y) grows with x, and with y where x > 1 only.
+    const Interval x = noiseIn(noise_, q), y = noiseIn(*lift_, q);
+    const auto lifted = [&](float lift) { return (x.high - lift + 1.0f) / (2.0f - lift); };
+    const float base = std::max(lifted(y.low), lifted(y.high));
+    return c_.extinction * law::applyCoverage(std::max(base, 0.0f), w.a.high);
+  }
+
+  law::LayerParams c_;
+  law::ClipParams clip_;
+  int texels_, size_;
+  TexelBounds a_, b_, extraA_, extraB_, noise_;
+  std::unique_ptr<TexelBounds> lift_;
+};
+
+// Adds a layer's bounds to those of a column of cells.
+void addColumn(const LayerBounds& layer, const MajorantLevel& level, std::size_t column, std::vector<float>& sums) {
+  const glm::vec2 corner(static_cast<float>(column % static_cast<std::size_t>(level.n)),
+                         static_cast<float>(column / static_cast<std::size_t>(level.n)));
+  // Rounding of a sample's place against its cell, and the least step of a ray.
+  const float loose = std::max(1e-6f * level.cell * static_cast<float>(level.n), 0.3f);
+  const glm::vec2 low = glm::vec2(level.origin) + corner * level.cell;
+  const auto boxOf = [&](int from, int to) {
+    const float z = level.origin.z + static_cast<float>(from) * level.height;
+    return Box{{low - loose, z - kSlack},
+               {low + level.cell + loose, z + static_cast<float>(to - from) * level.height + kSlack}};
+  };
+  for (int first = 0; first < level.layers; first += kWeatherRows) {
+    const int end = std::min(first + kWeatherRows, level.layers);
+    const WeatherInterval weather = layer.weatherIn(layer.unsheared(boxOf(first, end)));
+    for (int k = first; k < end; ++k)
+      sums[static_cast<std::size_t>(k)] += layer.extinctionIn(layer.unsheared(boxOf(k, k + 1)), weather);
+  }
+}
+
+// Writes into empty cells how far away the nearest one with cloud is (chessboard distance, by the two passes of
+// Rosenfeld and Pfaltz 1966). Beyond the level's sides nothing is known, below and above it there is no cloud.
+void markEmptiness(const MajorantLevel& level, float* bounds) {
+  const int n = level.n, layers = level.layers;
+  const auto cell = [&](int i, int j, int k) -> float& {
+    return bounds[(static_cast<std::size_t>(k) * n + static_cast<std::size_t>(j)) * n + static_cast<std::size_t>(i)];
+  };
+  const auto distance = [&](int i, int j, int k) { return std::max(-cell(i, j, k), 0.0f); };
+  const auto pass = [&](int way) {
+    const auto at = [&](int index, int count) { return way > 0 ? index : count - 1 - index; };
+    for (int kk = 0; kk < layers; ++kk)
+      for (int jj = 0; jj < n; ++jj)
+        for (int ii = 0; ii < n; ++ii) {
+          const int i = at(ii, n), j = at(jj, n), k = at(kk, layers);
+          if (cell(i, j, k) > 0.0f) continue;
+          float least = static_cast<float>(std::min({i + 1, n - i, j + 1, n - j}));
+          if (way < 0) least = std::min(least, distance(i, j, k));
+          const auto look = [&](int x, int y, int z) {
+            if (x < 0 || y < 0 || x >= n || y >= n || z < 0 || z >= layers) return;
+            least = std::min(least, distance(x, y, z) + 1.0f);
+          };
+          for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x) look(i + x, j + y, k - way);
+          for (int x = -1; x <= 1; ++x) look(i + x, j - way, k);
+          look(i - way, j, k);
+          cell(i, j, k) = -least;
+        }
+  };
+  pass(1);
+  pass(-1);
+}
+
+Majorants bakeMajorants(const CloudCache& cache, const CloudCacheExtent& extent) {
+  Majorants m;
+  if (cache.layers.empty()) return m;
+  m.bottom = INFINITY, m.top = -INFINITY;
+  std::vector<LayerBounds> layers;
+  for (std::size_t i = 0; i < cache.layers.size(); ++i) {
+    const law::LayerParams& layer = cache.layers[i];
+    m.bottom = std::min(m.bottom, layer.bottom);
+    m.top = std::max(m.top, layer.top);
+    layers.emplace_back(layer, cache.weather.clips[i], cache.weather,
+                        (layer.shape == 0 ? cache.noise.profileBase : cache.noise.nubisBase).view());
+  }
+  m.bottom -= kSlack;
+  m.top += kSlack;
+  const double reach = 0.5 * extent.weather.edge(extent.weather.levels - 1);  // beyond, the weather is not known
+  const std::size_t plane = static_cast<std::size_t>(extent.cells) * extent.cells;
+  for (double cell = extent.finestCell;; cell *= 2.0) {
+    MajorantLevel level;
+    level.cell = static_cast<float>(cell);
+    level.n = extent.cells;
+    level.layers = extent.cellLayers;
+    level.height = (m.top - m.bottom) / static_cast<float>(level.layers);
+    level.origin = glm::vec3(glm::vec2(-0.5f * level.cell * static_cast<float>(level.n)), m.bottom);
+    level.offset = m.bounds.size();
+    m.bounds.resize(level.offset + plane * static_cast<std::size_t>(level.layers));
+    m.levels.push_back(level);
+    if (0.5 * cell * extent.cells >= reach) break;
+  }
+  for (const MajorantLevel& level : m.levels)
+    parallelFor(plane, 16, [&](std::size_t begin, std::size_t end) {
+      std::vector<float> sums(static_cast<std::size_t>(level.layers));
+      for (std::size_t at = begin; at < end; ++at) {
+        std::fill(sums.begin(), sums.end(), 0.0f);
+        for (const LayerBounds& layer : layers) addColumn(layer, level, at, sums);
+        for (std::size_t k = 0; k < sums.size(); ++k)
+          m.bounds[level.offset + k * plane + at] = sums[k] * 1.0001f;  // rounding
+      }
+    });
+  parallelFor(m.levels.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) markEmptiness(m.levels[i], m.bounds.data() + m.levels[i].offset);
+  });
+  return m;
+}
+
+}  // namespace
+
+CloudCache bakeCloudCache(const DensityParts& parts, const DensityTextures& textures, const glm::dvec3& anchor,
+                          const CloudCacheExtent& extent) {
+  CloudCache cache;
+  cache.noise = bakeDensityTextures(parts, textures);
+  for (const Layer& layer : parts.layers) cache.layers.push_back(layerParams(layer, anchor, parts.drift));
+  for (const Sheet& sheet : parts.sheets)
+    cache.sheets.push_back(sheetParams(sheet, glm::dvec2(anchor), parts.drift.time, parts.seed));
+  if (!parts.layers.empty())
+    cache.weather = bakeWeatherLevels(parts.layers, extent.weather, glm::dvec2(anchor), parts.drift, parts.seed,
+                                      parts.weatherMaps);
+  cache.majorants = bakeMajorants(cache, extent);
+  return cache;
+}
+
+float extinctionIn(const CloudCache& cache, const glm::vec3& point) {
+  float sum = 0.0f;
+  for (std::size_t i = 0; i < cache.layers.size(); ++i) {
+    const law::LayerParams& c = cache.layers[i];
+    const WeatherCache& w = cache.weather;
+    const DensityTextures& t = cache.noise;
+    sum += (c.shape == 0
+                ? law::profileExtinction(point, 0.0f, 0.0f, c, w.clips[i], w.mainView(), w.extraView(),
+                                         t.profileBase.view(), t.profileDetail.view(), t.profileWarp.view())
+                : law::nubisExtinction(point, true, 0.0f, c, w.clips[i], w.mainView(), w.extraView(),
+                                       t.nubisBase.view(), t.nubisDetail.view(), t.curl.view()))
+               .x;
+  }
+  return sum;
+}
+
+float majorantAt(const Majorants& m, const glm::vec3& point) {
+  for (const MajorantLevel& level : m.levels) {
+    const glm::ivec3 i(glm::floor((point - level.origin) / glm::vec3(level.cell, level.cell, level.height)));
+    if (i.x < 0 || i.y < 0 || i.z < 0 || i.x >= level.n || i.y >= level.n || i.z >= level.layers) continue;
+    return std::max(m.bounds[level.offset +
+                             (static_cast<std::size_t>(i.z) * level.n + static_cast<std::size_t>(i.y)) * level.n +
+                             static_cast<std::size_t>(i.x)],
+                    0.0f);
+  }
+  return 0.0f;
+}
+
+}  // namespace welkin

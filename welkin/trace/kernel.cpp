@@ -1,0 +1,643 @@
+// Once per instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "welkin/trace/kernel.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target.h comes first.
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "welkin/atmosphere/law-inl.hpp"
+#include "welkin/density/law-inl.hpp"
+#include "welkin/noise/rows-inl.hpp"
+#include "welkin/trace/kernel.hpp"
+#include "welkin/trace/phase_table-inl.hpp"
+#include "welkin/trace/random-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace welkin::trace::HWY_NAMESPACE {
+
+namespace target = ::welkin::HWY_NAMESPACE;
+namespace law = ::welkin::HWY_NAMESPACE::law;
+using law::Int, law::Mask, law::Real, law::Uint, law::Vec2, law::Vec3, law::Vec4;
+using law::both, law::either, law::invert, law::noneOf, law::select;
+using target::Random, target::next, target::PhaseSample;
+
+constexpr float kPi = 3.14159265f;
+constexpr float kNever = 1e12f;       // m
+constexpr float kLongStep = 3500.0f;  // m: straight air rises 1 m above its tangent over this way, half of what slabs allow
+constexpr int kStrides = 6;           // pieces of empty air before the density is asked again
+constexpr int kFreeScatterings = 128;  // before roulette begins where the throughput does not fall
+constexpr int kMostScatterings = 1 << 20;
+
+HWY_INLINE Mask andNot(Mask a, Mask b) { return both(a, invert(b)); }
+HWY_INLINE std::size_t countOf(Mask m) { return law::hn::CountTrue(law::D(), m.m); }
+HWY_INLINE Vec3 vec(const glm::vec4& v) { return Vec3(v.x, v.y, v.z); }
+HWY_INLINE Real sumOf(Vec3 v) { return v.x + v.y + v.z; }
+HWY_INLINE Real greatest(Vec3 v) { return law::max(law::max(v.x, v.y), v.z); }
+
+// A unit vector at an angle of versine (1 - cos) v and azimuth 2 pi u about the unit vector d (frame after Duff et al.
+// 2017, "Building an orthonormal basis, revisited").
+HWY_INLINE Vec3 turned(Vec3 d, Real v, Real u) {
+  const Real s = select(d.z < 0.0f, Real(-1.0f), Real(1.0f));
+  const Real a = Real(-1.0f) / (s + d.z), b = d.x * d.y * a;
+  const Vec3 x(1.0f + s * d.x * d.x * a, s * b, -s * d.x), y(b, s + d.y * d.y * a, -d.y);
+  const Real sine = law::sqrt(law::max(v * (2.0f - v), 0.0f)), phi = u * (2.0f * kPi);
+  return law::normalize(x * (sine * law::cos(phi)) + y * (sine * law::sin(phi)) + d * (1.0f - v));
+}
+
+// 1 - cos of the angle between unit vectors, exact for small ones.
+HWY_INLINE Real versineBetween(Vec3 a, Vec3 b) {
+  const Vec3 d = a - b;
+  return law::min(0.5f * law::dot(d, d), Real(2.0f));
+}
+
+// A path in every lane. A lane either follows its path or asks how much of the sun reaches the place where the path was
+// scattered; each turn asks the clouds for their density once.
+class Paths {
+ public:
+  Paths(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels)
+      : s_(scene), job_(job), pixels_(pixels), m_(scene.clouds->majorants),
+        planet_(std::bit_cast<law::PlanetParams>(scene.planet)), air_(std::bit_cast<law::AtmosphereParams>(scene.air)),
+        total_(static_cast<std::size_t>(job.width) * job.height * job.samples) {
+    for (const auto& l : scene.clouds->layers) layers_.push_back(std::bit_cast<law::LayerParams>(l));
+    for (const auto& c : scene.clouds->weather.clips) clips_.push_back(std::bit_cast<law::ClipParams>(c));
+    for (const auto& h : scene.clouds->sheets) sheets_.push_back(std::bit_cast<law::SheetParams>(h));
+    cloudTop_ = layers_.empty() ? -1.0f : m_.top;
+    for (const auto& h : sheets_) cloudTop_ = std::max(cloudTop_, h.height + kSheetThickness + 2.0f);
+    pathTop_ = scene.airScatters ? air_.thickness : cloudTop_;
+    sun_ = Vec3(air_.sunDirection.x, air_.sunDirection.y, air_.sunDirection.z);
+  }
+
+  KernelStatistics run() {
+    alive_ = law::toMask(false);
+    place_ = Vec3(Real(0.0f));
+    way_ = Vec3(Real(0.0f), Real(0.0f), Real(1.0f));
+    clearLanes();
+    for (;;) {
+      refill();
+      if (noneOf(alive_)) break;
+      const Mask candidate = advance();
+      ++statistics_.turns;
+      collide(candidate);
+    }
+    return statistics_;
+  }
+
+ private:
+  void clearLanes() {
+    t_ = tau_ = end_ = Real(0.0f);
+    muCloud_ = muAir_ = Real(0.0f);
+    shadow_ = law::toMask(false);
+    toGround_ = toSky_ = done_ = law::toMask(false);
+    beta_ = ratio_ = hero_ = light_ = single_ = pending_ = nextWay_ = Vec3(Real(0.0f));
+    through_ = depth_ = clear_ = Real(0.0f);
+    count_ = Real(0.0f);
+    index_ = Uint(0u);
+    random_ = {Uint(1u), Uint(2u), Uint(3u), Uint(4u)};
+  }
+
+  // Lanes without a path take the next ones of the tile, in order.
+  void refill() {
+    if (issued_ >= total_ || law::hn::AllTrue(law::D(), alive_.m)) return;
+    const std::size_t lanes = law::laneCount();
+    HWY_ALIGN float x[64], y[64], fresh[64];
+    HWY_ALIGN std::uint32_t pixel[64], sample[64], at[64];
+    law::hn::Store(select(alive_, Real(0.0f), Real(1.0f)).v, law::D(), fresh);
+    for (std::size_t i = 0; i < lanes; ++i) {
+      x[i] = y[i] = 0.0f;
+      pixel[i] = sample[i] = at[i] = 0;
+      if (fresh[i] == 0.0f) continue;
+      if (issued_ >= total_) {
+        fresh[i] = 0.0f;
+        continue;
+      }
+      const auto count = static_cast<std::size_t>(job_.samples);
+      const std::size_t p = issued_ / count;
+      const int px = job_.x + static_cast<int>(p % static_cast<std::size_t>(job_.width));
+      const int py = job_.y + static_cast<int>(p / static_cast<std::size_t>(job_.width));
+      x[i] = static_cast<float>(px);
+      y[i] = static_cast<float>(py);
+      pixel[i] = static_cast<std::uint32_t>(py) * static_cast<std::uint32_t>(job_.imageWidth) +
+                 static_cast<std::uint32_t>(px);
+      sample[i] = static_cast<std::uint32_t>(job_.firstSample) + static_cast<std::uint32_t>(issued_ % count);
+      at[i] = static_cast<std::uint32_t>(p);
+      ++issued_;
+      ++statistics_.paths;
+    }
+    const Mask start = Real(law::hn::Load(law::D(), fresh)) > 0.5f;
+    const Uint pixels(law::hn::Load(law::DU(), pixel)), samples(law::hn::Load(law::DU(), sample));
+    random_ = target::select(start, target::seedRandom(job_.seed, pixels, samples), random_);
+    index_ = select(start, Uint(law::hn::Load(law::DU(), at)), index_);
+    const Real jitterX = next(random_, start), jitterY = next(random_, start);
+    const Real fx = Real(law::hn::Load(law::D(), x)) + jitterX, fy = Real(law::hn::Load(law::D(), y)) + jitterY;
+    const Vec3 ray = law::normalize(Vec3(s_.corner) + Vec3(s_.right) * fx + Vec3(s_.down) * fy);
+    const Real channel = law::floor(next(random_, start) * 3.0f);
+    hero_ = select(start,
+                   Vec3(select(channel < 0.5f, Real(1.0f), Real(0.0f)),
+                        select(both(channel > 0.5f, channel < 1.5f), Real(1.0f), Real(0.0f)),
+                        select(channel > 1.5f, Real(1.0f), Real(0.0f))),
+                   hero_);
+    const Vec3 one(Real(1.0f)), none(Real(0.0f));
+    beta_ = select(start, one, beta_);
+    ratio_ = select(start, one, ratio_);
+    light_ = select(start, none, light_);
+    single_ = select(start, none, single_);
+    depth_ = select(start, Real(0.0f), depth_);
+    clear_ = select(start, Real(1.0f), clear_);
+    count_ = select(start, Real(0.0f), count_);
+    place_ = select(start, none, place_);
+    alive_ = either(alive_, start);
+    begin(start, ray);
+  }
+
+  // Sends lanes on their path from place_ along `way`.
+  void begin(Mask lanes, Vec3 way) {
+    way_ = select(lanes, way, way_);
+    shadow_ = andNot(shadow_, lanes);
+    const Real altitude = law::altitudeAt(place_, planet_);
+    // Places outside the air skip the way to it.
+    const Vec3 fromCentre = Vec3(vec4(planet_.up)) * planet_.up.w + place_;
+    const Real b = law::dot(fromCentre, way), c = altitude * (2.0f * planet_.radius + altitude);
+    const Real disc = b * b - c;
+    const Mask down = both(b < 0.0f, disc > 0.0f);
+    const Real ground = law::max(c / law::max(law::sqrt(law::max(disc, 0.0f)) - b, 1e-3f), 0.0f);
+    end_ = select(lanes, select(down, ground, Real(kNever)), end_);
+    const float top = std::max(pathTop_, 1.0f);
+    const Real cTop = (altitude - top) * (2.0f * planet_.radius + altitude + top);
+    const Real discTop = b * b - cTop;
+    const Mask outside = altitude > top, enters = both(outside, both(b < 0.0f, discTop > 0.0f));
+    const Real entry = cTop / law::max(law::sqrt(law::max(discTop, 0.0f)) - b, 1e-3f);
+    t_ = select(lanes, select(enters, entry, Real(0.0f)), t_);
+    draw(lanes);
+  }
+
+  void draw(Mask lanes) { tau_ = select(lanes, -law::log(1.0f - next(random_, lanes)), tau_); }
+
+  static Vec3 vec4(const glm::vec4& v) { return Vec3(v.x, v.y, v.z); }
+
+  // Moves all lanes until most stand at a tentative collision or have ended; answers which do.
+  Mask advance() {
+    Mask candidate = law::toMask(false);
+    Mask moving = alive_;
+    toGround_ = toSky_ = law::toMask(false);
+    const std::size_t few = law::laneCount() / 4;
+    for (int i = 0; i < kStrides; ++i) {
+      stride(moving, candidate);
+      ++statistics_.strides;
+      if (countOf(moving) <= few) break;
+    }
+    return candidate;
+  }
+
+  // One straight piece of every moving lane, over which bounds are constant.
+  void stride(Mask& moving, Mask& candidate) {
+    const Vec3 p = place_ + way_ * t_;
+    const Real h = law::altitudeAt(p, planet_);
+    const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + p;
+    const Real rise = law::dot(fromCentre, way_) / (h + planet_.radius);
+    const Real top = select(shadow_, Real(cloudTop_), Real(pathTop_));
+    const Mask escapes = both(moving, both(h > top, rise > 0.0f));
+    toSky_ = either(toSky_, escapes);
+    moving = andNot(moving, escapes);
+    // Where the ray has no ground ahead and no air, but is high above all and descends, the bounds below still hold.
+    const Mask up = rise > 0.0f;
+    const Real inverse = Real(1.0f) / select(law::abs(rise) > 1e-6f, law::abs(rise), Real(1e-6f));
+    Real reach = select(h > cloudTop_, Real(20000.0f), Real(kLongStep));
+    reach = law::min(reach, law::max(Real(kAirClimb), h * 0.5f) * inverse);
+    const auto meet = [&](float low, float high) {
+      const Mask inside = both(h > low, h < high);
+      const Real exit = select(up, Real(high) - h, h - low);
+      const Real entry = select(up, Real(low) - h, h - high);
+      const Mask ahead = either(inside, entry > 0.0f);
+      reach = select(ahead, law::min(reach, select(inside, exit, entry) * inverse), reach);
+      return inside;
+    };
+    Real cloud = 0.0f;
+    if (!layers_.empty()) {
+      const Mask inside = meet(m_.bottom, m_.top);
+      if (!noneOf(both(inside, moving))) cloud = select(inside, cellBound(p, h, rise, inverse, reach), cloud);
+    }
+    for (std::size_t i = 0; i < sheets_.size(); ++i) {
+      const Mask inside = meet(sheets_[i].height - 2.0f, sheets_[i].height + kSheetThickness + 2.0f);
+      cloud += select(inside, Real(s_.sheetBounds[i]), Real(0.0f));
+    }
+    reach = law::max(reach, law::max(Real(0.05f), t_ * 2e-7f));
+    Real air = 0.0f;
+    if (s_.airScatters) {
+      const Real lowest = law::max(h + law::min(rise * reach, Real(0.0f)), 0.0f);
+      const Int bin = law::min(law::floorInt(lowest * (1.0f / kAirStep)), Int(int(s_.airBounds.size()) - 1));
+      air = select(shadow_, Real(0.0f), law::gather(s_.airBounds.data(), law::max(bin, Int(0))));
+    }
+    const Real mu = cloud + air;
+    const Mask hit = both(moving, tau_ < mu * reach);
+    const Real way = select(hit, tau_ / law::max(mu, 1e-20f), reach);
+    const Mask ended = both(moving, t_ + way >= end_);
+    const Mask stops = andNot(hit, ended);
+    const Mask goes = andNot(andNot(moving, hit), ended);
+    tau_ = select(goes, law::max(tau_ - mu * reach, 0.0f), tau_);
+    t_ = select(ended, end_, select(moving, t_ + way, t_));
+    muCloud_ = select(stops, cloud, muCloud_);
+    muAir_ = select(stops, air, muAir_);
+    toGround_ = either(toGround_, ended);
+    candidate = either(candidate, stops);
+    moving = goes;
+  }
+
+  // The bound of the cell round p; shortens `reach` to the cell's end.
+  Real cellBound(Vec3 p, Real h, Real rise, Real inverseRise, Real& reach) {
+    const Real far = law::max(law::abs(p.x), law::abs(p.y));
+    Real cell = 1.0f;
+    Int offset = 0;
+    Mask known = law::toMask(false);
+    for (std::size_t k = m_.levels.size(); k-- > 0;) {
+      const MajorantLevel& level = m_.levels[k];
+      const Mask in = far < -level.origin.x;
+      known = either(known, in);
+      cell = select(in, Real(level.cell), cell);
+      offset = select(in, Int(static_cast<std::int32_t>(level.offset)), offset);
+    }
+    const MajorantLevel& first = m_.levels.front();
+    const float half = 0.5f * static_cast<float>(first.n);
+    const Real x = law::floor(p.x / cell), y = law::floor(p.y / cell);
+    const Real z = law::clamp(law::floor((h - first.origin.z) * (1.0f / first.height)), Real(0.0f),
+                              Real(static_cast<float>(first.layers - 1)));
+    const auto index = [&](Real c) {
+      return law::toInt(law::clamp(c + half, Real(0.0f), Real(static_cast<float>(first.n - 1))));
+    };
+    const Int n(first.n);
+    const Real bound = law::gather(m_.bounds.data(), offset + (law::toInt(z) * n + index(y)) * n + index(x));
+    // Out of the cell, or of all the empty cells round it.
+    const Real free = law::max(-bound - 1.0f, 0.0f);
+    const auto exit = [&](Real at, Real i, Real way) {
+      const Real ahead = select(way > 0.0f, (i + 1.0f + free) * cell - at, at - (i - free) * cell);
+      return ahead / law::max(law::abs(way), 1e-9f);
+    };
+    Real out = law::min(exit(p.x, x, way_.x), exit(p.y, y, way_.y));
+    const Real low = first.origin.z + (z - free) * first.height;
+    const Real high = first.origin.z + (z + 1.0f + free) * first.height;
+    out = law::min(out, select(rise > 0.0f, high - h, h - low) * inverseRise);
+    reach = select(known, law::min(reach, out), reach);
+    return select(known, law::max(bound, 0.0f), Real(0.0f));
+  }
+
+  // Extinction of component `i` at points of cloud space.
+  Real extinctionOf(std::size_t i, Vec3 q) {
+    const CloudCache& c = *s_.clouds;
+    if (i < layers_.size()) {
+      const DensityTextures& t = c.noise;
+      const TextureView main = c.weather.mainView(), extra = c.weather.extraView();
+      if (layers_[i].shape == 0)
+        return law::profileExtinction(q, Real(0.0f), Real(0.0f), layers_[i], clips_[i], main, extra,
+                                      t.profileBase.view(), t.profileDetail.view(), t.profileWarp.view())
+            .x;
+      return law::nubisExtinction(q, law::toMask(true), Real(0.0f), layers_[i], clips_[i], main, extra,
+                                  t.nubisBase.view(), t.nubisDetail.view(), t.curl.view())
+          .x;
+    }
+    const law::SheetParams& sheet = sheets_[i - layers_.size()];
+    const Mask inside = both(q.z > sheet.height, q.z < sheet.height + kSheetThickness);
+    if (noneOf(inside)) return Real(0.0f);
+    return select(inside, law::sheetOpticalDepth(law::xy(q), sheet) * (1.0f / kSheetThickness), Real(0.0f));
+  }
+
+  // What happens at the tentative collisions, at the ground and at the top.
+  void collide(Mask candidate) {
+    const Vec3 here = place_ + way_ * t_;
+    const Vec3 p = select(candidate, here, Vec3(Real(0.0f)));
+    const Real h = law::altitudeAt(p, planet_);
+    const Real mu = muCloud_ + muAir_;
+    const Real xi = select(candidate, next(random_, candidate) * mu, Real(-1.0f));
+    const Mask inAir = both(candidate, xi < muAir_), inCloud = andNot(candidate, inAir);
+    Mask scattered = law::toMask(false), byAir = law::toMask(false);
+    Real component = -1.0f;
+    if (!noneOf(inCloud)) {
+      const Vec3 q = select(inCloud, Vec3(p.x, p.y, h), Vec3(Real(0.0f), Real(0.0f), Real(-1e4f)));
+      Real sum = 0.0f;
+      const Real at = xi - muAir_;
+      for (std::size_t i = 0; i < s_.components.size(); ++i) {
+        const Real sigma = extinctionOf(i, q);
+        const Mask chosen = both(both(at >= sum, at < sum + sigma), andNot(inCloud, shadow_));
+        component = select(chosen, Real(static_cast<float>(i)), component);
+        sum += sigma;
+      }
+      statistics_.lookups += countOf(inCloud);
+      statistics_.overBound += countOf(both(inCloud, sum > muCloud_));
+      scattered = component >= 0.0f;
+      passShadow(both(inCloud, shadow_), sum);
+    }
+    if (!noneOf(inAir)) byAir = meetAir(inAir, xi, h);
+    scattered = either(scattered, byAir);
+    draw(both(candidate, alive_));
+    if (!noneOf(scattered)) scatter(scattered, byAir, component, p, h);
+    const Mask lit = both(shadow_, toSky_);
+    if (!noneOf(lit)) arrive(lit);
+    const Mask blocked = both(shadow_, toGround_);
+    resume(either(lit, blocked));
+    const Mask ground = andNot(toGround_, either(shadow_, blocked));
+    if (!noneOf(ground)) meetGround(ground, here);
+    const Mask sky = both(andNot(toSky_, either(shadow_, lit)), alive_);
+    if (!noneOf(sky)) meetSky(sky);
+    if (!noneOf(done_)) flush();
+  }
+
+  // Ratio tracking: a tentative collision on the way to the sun leaves the share 1 - sigma / mu.
+  void passShadow(Mask lanes, Real sigma) {
+    if (noneOf(lanes)) return;
+    through_ = select(lanes, through_ * law::max(1.0f - sigma / law::max(muCloud_, 1e-20f), 0.0f), through_);
+    // Roulette on what is left.
+    const Mask faint = both(lanes, through_ < 0.25f);
+    const Real survives = law::max(through_ * 4.0f, 0.05f);
+    const Mask dies = both(faint, either(next(random_, faint) >= survives, through_ <= 0.0f));
+    through_ = select(faint, through_ / survives, through_);
+    resume(dies);
+  }
+
+  // A tentative collision with the air, whose extinction has a colour: one channel decides, and the others are weighed
+  // by what they would have done (one-sample balance heuristic over channels; Wilkie et al. 2014).
+  Mask meetAir(Mask lanes, Real xi, Real h) {
+    const Vec3 sigma = law::atmosphereExtinction(air_, h);
+    const Real chosen = law::dot(sigma, hero_);
+    const Mask real = both(lanes, xi < chosen);
+    const Mask null = andNot(lanes, real);
+    statistics_.overBound += countOf(both(lanes, greatest(sigma) > muAir_));
+    const Vec3 left = law::max(Vec3(muAir_) - sigma, Vec3(Real(0.0f))) / law::max(muAir_ - chosen, 1e-20f);
+    beta_ = select(null, beta_ * left, beta_);
+    ratio_ = select(null, ratio_ * left, ratio_);
+    const Vec3 d = law::airDensity(air_, h);
+    const Vec3 scattering = vec4(air_.rayleigh) * d.x + vec4(air_.mieScattering) * d.y;
+    const Real inverse = Real(1.0f) / law::max(chosen, 1e-20f);
+    beta_ = select(real, beta_ * scattering * inverse, beta_);
+    ratio_ = select(real, ratio_ * sigma * inverse, ratio_);
+    return real;
+  }
+
+  // How the light of all channels is weighed: the mean of their densities.
+  Real balance() { return 3.0f / law::max(sumOf(ratio_), 1e-30f); }
+
+  // Phase function of the lanes' matter between two directions, each channel: components have one for all.
+  Vec3 phaseOf(Mask byAir, Real component, Vec3 share, Real versine) {
+    Real grey = 0.0f;
+    for (std::size_t i = 0; i < s_.components.size(); ++i) {
+      const Mask mine = both(component > static_cast<float>(i) - 0.5f, component < static_cast<float>(i) + 0.5f);
+      if (noneOf(mine)) continue;
+      grey = select(mine, target::evaluatePhase(s_.phases[static_cast<std::size_t>(s_.components[i].phase)], versine),
+                    grey);
+    }
+    Vec3 all(grey);
+    if (noneOf(byAir)) return all;
+    const Real cosTheta = 1.0f - versine;
+    const Real molecules = law::phaseRayleigh(cosTheta);
+    const Real aerosol = law::phaseCornetteShanks(cosTheta, air_.mieExtinction.w);
+    const Vec3 mixed = share * molecules + (Vec3(Real(1.0f)) - share) * aerosol;
+    return select(byAir, mixed, all);
+  }
+
+  // Scatters lanes at p: asks for the sun, and draws the direction in which the path will go on.
+  void scatter(Mask lanes, Mask byAir, Real component, Vec3 p, Real h) {
+    statistics_.scatterings += countOf(lanes);
+    const Mask first = both(lanes, count_ < 0.5f);
+    count_ = select(lanes, count_ + 1.0f, count_);
+    const Mask cloudFirst = andNot(first, byAir);
+    depth_ = select(cloudFirst, t_, depth_);
+    clear_ = select(andNot(lanes, byAir), select(cloudFirst, Real(0.0f), clear_), clear_);
+    seeThroughAir(first);
+    place_ = select(lanes, p, place_);
+    // Absorption.
+    Real albedo = 1.0f;
+    for (std::size_t i = 0; i < s_.components.size(); ++i)
+      albedo = select(both(component > static_cast<float>(i) - 0.5f, component < static_cast<float>(i) + 0.5f),
+                      Real(s_.components[i].albedo), albedo);
+    beta_ = select(lanes, beta_ * albedo, beta_);
+    // Molecules' share of the air's scattering in every channel.
+    Vec3 share(Real(0.0f));
+    if (!noneOf(byAir)) {
+      const Vec3 d = law::airDensity(air_, h);
+      const Vec3 molecules = vec4(air_.rayleigh) * d.x, aerosol = vec4(air_.mieScattering) * d.y;
+      share = molecules / law::max(molecules + aerosol, Vec3(Real(1e-20f)));
+    }
+    const Vec3 toSun = sampleSun(lanes);
+    const Vec3 phaseSun = phaseOf(byAir, component, share, versineBetween(way_, toSun));
+    const Vec3 before = way_;
+    // The direction to go on in.
+    const Real u = next(random_, lanes), azimuth = next(random_, lanes);
+    Real versine = 0.0f;
+    Vec3 weight(Real(1.0f));
+    for (std::size_t i = 0; i < s_.components.size(); ++i) {
+      const Mask mine = both(component > static_cast<float>(i) - 0.5f, component < static_cast<float>(i) + 0.5f);
+      if (noneOf(mine)) continue;
+      const PhaseTableView& table = s_.phases[static_cast<std::size_t>(s_.components[i].phase)];
+      const PhaseSample sample = target::samplePhase(table, u);
+      versine = select(mine, sample.versine, versine);
+      weight = select(mine, Vec3(target::evaluatePhase(table, sample.versine) / sample.pdf), weight);
+    }
+    if (!noneOf(byAir)) {
+      const Real chosen = law::dot(share, hero_);
+      const Mask molecule = u < chosen;
+      const Real again = law::clamp(select(molecule, u / law::max(chosen, 1e-9f),
+                                           (u - chosen) / law::max(1.0f - chosen, 1e-9f)),
+                                    Real(0.0f), Real(0.99999994f));
+      // Rayleigh's cubic, cos^3 + 3 cos = 8 u - 4 (Frisvad 2011); the aerosol by its table.
+      const Real q = 4.0f * again - 2.0f, root = law::sqrt(1.0f + q * q);
+      const Real cube = law::exp(law::log(law::max(root + law::abs(q), 1e-6f)) * (1.0f / 3.0f));
+      const Real cosine = law::clamp(select(q < 0.0f, 1.0f / cube - cube, cube - 1.0f / cube), Real(-1.0f), Real(1.0f));
+      const PhaseTableView& table = s_.phases[static_cast<std::size_t>(s_.aerosolPhase)];
+      const PhaseSample sample = target::samplePhase(table, again);
+      const Real turn = select(molecule, 1.0f - cosine, sample.versine);
+      versine = select(byAir, turn, versine);
+      const Vec3 truth = phaseOf(byAir, Real(-1.0f), share, turn);
+      const Real pR = law::phaseRayleigh(1.0f - turn), pM = target::phasePdf(table, turn);
+      const Real density = law::max(chosen * pR + (1.0f - chosen) * pM, 1e-20f);
+      const Vec3 densities = share * pR + (Vec3(Real(1.0f)) - share) * pM;
+      weight = select(byAir, truth * (Real(1.0f) / density), weight);
+      nextRatio_ = select(byAir, densities * (Real(1.0f) / density), Vec3(Real(1.0f)));
+    } else {
+      nextRatio_ = Vec3(Real(1.0f));
+    }
+    nextWay_ = select(lanes, turned(before, versine, azimuth), nextWay_);
+    askSun(lanes, toSun, beta_ * phaseSun, h);
+    beta_ = select(lanes, beta_ * weight, beta_);
+    ratio_ = select(lanes, ratio_ * nextRatio_, ratio_);
+    const Mask dies = roulette(lanes);
+    nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
+    // Lanes that the sun cannot reach go on at once.
+    resume(andNot(lanes, shadow_));
+  }
+
+  // A direction to a point of the sun's disc.
+  Vec3 sampleSun(Mask lanes) {
+    const Real radius = air_.sunDirection.w;
+    const Real r2 = next(random_, lanes), azimuth = next(random_, lanes);
+    const Real angle = radius * law::sqrt(r2);
+    return turned(sun_, 0.5f * angle * angle, azimuth);
+  }
+
+  // Starts the question how much of `throughput` times the sun's light arrives at place_ from `toSun`.
+  void askSun(Mask lanes, Vec3 toSun, Vec3 throughput, Real h) {
+    const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + place_;
+    const Real altitude = law::max(h, 0.0f);
+    const Real cosZenith = law::dot(fromCentre, toSun) / (altitude + planet_.radius);
+    const Vec3 light = law::lookupTransmittance(s_.transmittance, air_, altitude, law::clamp(cosZenith, -1.0f, 1.0f)) *
+                       vec4(air_.sunIrradiance);
+    const Vec3 value = throughput * light * balance();
+    const Mask seen = both(lanes, both(cosZenith > law::horizonCosine(air_, altitude), sumOf(value) > 0.0f));
+    pending_ = select(seen, value, pending_);
+    through_ = select(seen, Real(1.0f), through_);
+    way_ = select(seen, toSun, way_);
+    t_ = select(seen, Real(0.0f), t_);
+    end_ = select(seen, Real(kNever), end_);
+    shadow_ = either(shadow_, seen);
+    draw(seen);
+  }
+
+  // The sun's light arrives.
+  void arrive(Mask lanes) {
+    const Vec3 value = pending_ * through_;
+    light_ = select(lanes, light_ + value, light_);
+    single_ = select(both(lanes, count_ < 1.5f), single_ + value, single_);
+  }
+
+  // Lanes that have asked for the sun go on along their path; those that roulette ended are done.
+  void resume(Mask lanes) {
+    if (noneOf(lanes)) return;
+    const Mask dead = both(lanes, law::dot(nextWay_, nextWay_) < 0.5f);
+    done_ = either(done_, dead);
+    shadow_ = andNot(shadow_, lanes);
+    const Mask goes = andNot(lanes, dead);
+    if (!noneOf(goes)) begin(goes, nextWay_);
+  }
+
+  // Ends paths whose throughput is faint, or that have been scattered very often, and compensates the others.
+  Mask roulette(Mask lanes) {
+    const Real strength = greatest(beta_) * balance();
+    Real survives = law::clamp(strength * 4.0f, Real(0.05f), Real(1.0f));
+    survives = select(count_ > static_cast<float>(kFreeScatterings), law::min(survives, Real(0.98f)), survives);
+    const Mask at = both(lanes, survives < 1.0f);
+    if (noneOf(at)) return at;
+    const Mask dies = both(at, either(next(random_, at) >= survives, strength <= 0.0f));
+    beta_ = select(at, beta_ / survives, beta_);
+    return either(dies, both(lanes, count_ > static_cast<float>(kMostScatterings)));
+  }
+
+  // Table mode: what lies between the camera and the first thing that the path meets.
+  void seeThroughAir(Mask lanes) {
+    if (s_.airScatters || noneOf(lanes)) return;
+    Vec3 inscatter(Real(0.0f)), through(Real(1.0f));
+    law::lookupAerial(s_.aerialInscatter, s_.aerialTransmittance, air_, way_, t_, inscatter, through);
+    light_ = select(lanes, light_ + inscatter, light_);
+    beta_ = select(lanes, beta_ * through, beta_);
+  }
+
+  void meetGround(Mask lanes, Vec3 here) {
+    const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + here;
+    const Vec3 normal = law::normalize(fromCentre);
+    seeThroughAir(both(lanes, count_ < 0.5f));
+    count_ = select(lanes, count_ + 1.0f, count_);
+    place_ = select(lanes, here + normal, place_);  // one metre above
+    const Vec3 albedo = vec4(air_.groundAlbedo);
+    beta_ = select(lanes, beta_ * albedo, beta_);
+    const Vec3 toSun = sampleSun(lanes);
+    const Real cosine = law::max(law::dot(normal, toSun), 0.0f);
+    const Real u = next(random_, lanes), azimuth = next(random_, lanes);
+    nextWay_ = select(lanes, turned(normal, 1.0f - law::sqrt(u), azimuth), nextWay_);
+    askSun(lanes, toSun, beta_ * (cosine * (1.0f / kPi)), law::altitudeAt(place_, planet_));
+    const Mask dies = roulette(lanes);
+    nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
+    resume(andNot(lanes, shadow_));
+  }
+
+  void meetSky(Mask lanes) {
+    const Mask first = both(lanes, count_ < 0.5f);
+    const Vec3 weight = beta_ * balance();
+    if (!s_.airScatters) {
+      const Vec3 sky = weight * law::lookupSky(s_.skyView, air_, way_);
+      light_ = select(lanes, light_ + sky, light_);
+      single_ = select(both(lanes, count_ < 1.5f), single_ + sky, single_);
+    }
+    if (!noneOf(first)) {
+      Vec3 disc = law::sunDisc(air_, way_, Real(1e-6f)) * weight;
+      if (!s_.airScatters) disc = disc * law::lookupTransmittance(s_.transmittance, air_, air_.cameraAltitude, way_.z);
+      light_ = select(first, light_ + disc, light_);
+    }
+    done_ = either(done_, lanes);
+  }
+
+  // Adds finished paths to their pixels.
+  void flush() {
+    const std::size_t lanes = law::laneCount();
+    HWY_ALIGN float r[64], g[64], b[64], sr[64], sg[64], sb[64], clear[64], depth[64], ended[64];
+    HWY_ALIGN std::uint32_t at[64];
+    const auto store = [](Real x, float* to) { law::hn::Store(x.v, law::D(), to); };
+    store(light_.x, r), store(light_.y, g), store(light_.z, b);
+    store(single_.x, sr), store(single_.y, sg), store(single_.z, sb);
+    store(clear_, clear), store(depth_, depth);
+    store(select(done_, Real(1.0f), Real(0.0f)), ended);
+    law::hn::Store(index_.v, law::DU(), at);
+    for (std::size_t i = 0; i < lanes; ++i) {
+      if (ended[i] == 0.0f) continue;
+      const float y = 0.2126f * r[i] + 0.7152f * g[i] + 0.0722f * b[i];
+      if (!std::isfinite(r[i]) || !std::isfinite(g[i]) || !std::isfinite(b[i])) {
+        ++statistics_.notFinite;
+        continue;
+      }
+      PixelSums& sums = pixels_[at[i]];
+      sums.radiance[0] += r[i], sums.radiance[1] += g[i], sums.radiance[2] += b[i];
+      sums.single[0] += sr[i], sums.single[1] += sg[i], sums.single[2] += sb[i];
+      sums.square += y * y;
+      sums.clear += clear[i];
+      sums.depth += depth[i];
+    }
+    alive_ = andNot(alive_, done_);
+    shadow_ = andNot(shadow_, done_);
+    place_ = select(done_, Vec3(Real(0.0f)), place_);
+    t_ = select(done_, Real(0.0f), t_);
+    done_ = law::toMask(false);
+  }
+
+  const KernelScene& s_;
+  const TileJob& job_;
+  std::span<PixelSums> pixels_;
+  const Majorants& m_;
+  std::vector<law::LayerParams> layers_;
+  std::vector<law::ClipParams> clips_;
+  std::vector<law::SheetParams> sheets_;
+  law::PlanetParams planet_;
+  law::AtmosphereParams air_;
+  float cloudTop_ = 0.0f, pathTop_ = 0.0f;  // m, above which a shadow ray and a path are free
+  std::size_t total_, issued_ = 0;
+  KernelStatistics statistics_;
+
+  Vec3 sun_;
+  Random random_;
+  Uint index_;               // pixel in the tile
+  Mask alive_, shadow_;      // has a path; asks for the sun
+  Mask toGround_, toSky_, done_;
+  Vec3 place_, way_;         // relative to the camera; unit
+  Real t_, tau_, end_;       // m along way_; optical depth to go; where the ground is
+  Real muCloud_, muAir_;     // bounds at the tentative collision, 1/m
+  Vec3 beta_, ratio_;        // throughput over the density of the deciding channel; density of each channel over that
+  Vec3 hero_;                // 1 for the deciding channel
+  Vec3 nextRatio_, nextWay_; // of the path while the sun is asked for
+  Vec3 pending_;             // what arrives if nothing is in the way
+  Real through_;             // and the share that does
+  Vec3 light_, single_;
+  Real count_, clear_, depth_;
+};
+
+static KernelStatistics trace(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels) {
+  return Paths(scene, job, pixels).run();
+}
+
+}  // namespace welkin::trace::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace welkin::trace {
+HWY_EXPORT(trace);
+KernelStatistics traceTile(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels) {
+  return HWY_DYNAMIC_DISPATCH(trace)(scene, job, pixels);
+}
+}  // namespace welkin::trace
+#endif

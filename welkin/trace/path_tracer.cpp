@@ -1,0 +1,293 @@
+#include "welkin/trace/path_tracer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+
+#include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/error.hpp"
+#include "welkin/base/parallel.hpp"
+#include "welkin/light/phase.hpp"
+
+namespace welkin::trace {
+
+namespace {
+
+constexpr int kTile = 16;
+constexpr int kFirstSamples = 16;         // before the first estimate of a tile's noise
+constexpr std::size_t kGroup = 32;        // tiles between two looks at the clock
+constexpr double kCheckpointSeconds = 5;  // at least this long between two checkpoints
+constexpr double kIceAsymmetry = 0.78;    // .75 to .82 for ice
+
+// Largest extinction of the air in each step of altitude; beyond the last there is none.
+std::vector<float> airBounds(const law::AtmosphereParams& air) {
+  std::vector<float> bounds(static_cast<std::size_t>(air.thickness / kAirStep) + 2, 0.0f);
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    // Molecules and aerosol are densest at the lower edge, ozone at its middle or the nearest edge; a metre of slack.
+    const float low = std::max(static_cast<float>(i) * kAirStep - 1.0f, 0.0f), high = low + kAirStep + 2.0f;
+    const glm::vec3 bottom = law::airDensity(air, low);
+    // A step may climb by kAirClimb or half of its altitude.
+    const float climbed = high + std::max(kAirClimb, 0.51f * high);
+    const float middle = law::airDensity(air, std::clamp(air.ozoneHeight, low, climbed)).z;
+    const glm::vec3 sigma = glm::vec3(air.rayleigh) * bottom.x + glm::vec3(air.mieExtinction) * bottom.y +
+                            glm::vec3(air.ozone) * middle;
+    bounds[i] = 1.0001f * std::max({sigma.x, sigma.y, sigma.z});
+  }
+  return bounds;
+}
+
+}  // namespace
+
+struct PathTracer::Totals {
+  double radiance[3] = {}, single[3] = {}, square = 0, clear = 0, depth = 0;
+};
+
+struct PathTracer::Baked {
+  CloudCache clouds;
+  SkyTablesCpu sky;
+  std::vector<PhaseTable> phases;
+  KernelScene kernel;
+
+  int phaseOf(PhaseTable table) {
+    phases.push_back(std::move(table));
+    return static_cast<int>(phases.size()) - 1;
+  }
+};
+
+PathTracer::PathTracer(const Scene& scene, std::span<const Volume> maps, const TraceSettings& settings)
+    : baked_(std::make_unique<Baked>()), settings_(settings), seed_(static_cast<std::uint32_t>(scene.seed)) {
+  if (settings.width < 1 || settings.height < 1 || settings.samples < 1)
+    throw Error(ErrorKind::badInput, "", "a traced picture needs at least one pixel and one sample");
+  Baked& b = *baked_;
+  const glm::dvec3 eye = scene.camera.position;
+  b.clouds = bakeCloudCache({.layers = scene.layers,
+                             .sheets = scene.sheets,
+                             .noise = scene.noise,
+                             .drift = {scene.wind.speed, scene.wind.from, scene.time},
+                             .seed = scene.seed,
+                             .weatherMaps = maps},
+                            {}, eye);
+  KernelScene& k = b.kernel;
+  k.planet = planetParams(eye);
+  b.sky = bakeSky(scene.atmosphere, sunDirection(scene.sun), std::max(k.planet.altitude, 0.0f), scene.ground.albedo);
+  k.clouds = &b.clouds;
+  k.air = b.sky.params.air;
+  k.airScatters = settings.air == AirModel::medium && scene.atmosphere.model == SkyKind::physical;
+  k.airBounds = airBounds(k.air);
+  k.transmittance = b.sky.air.transmittance.view();
+  k.skyView = b.sky.skyView.view();
+  k.aerialInscatter = b.sky.aerialInscatter.view();
+  k.aerialTransmittance = b.sky.aerialTransmittance.view();
+  for (const Layer& layer : scene.layers)
+    k.components.push_back(
+        {layer.cloud.albedo, b.phaseOf(PhaseTable::mie(computeMiePhase(layer.cloud.dropletDiameter)))});
+  for (const Sheet& sheet : scene.sheets) {
+    const bool water = sheet.kind == SheetKind::altocumulus;
+    k.components.push_back({1.0f, b.phaseOf(water ? PhaseTable::mie(computeMiePhase(CloudLayer{}.dropletDiameter))
+                                                  : PhaseTable::henyeyGreenstein(kIceAsymmetry))});
+    // sheetOpticalDepth is at most 1.4 times the sheet's own.
+    k.sheetBounds.push_back(1.4001f * sheet.opticalDepth / kSheetThickness);
+  }
+  k.aerosolPhase = b.phaseOf(PhaseTable::henyeyGreenstein(scene.atmosphere.mieG));
+  for (const PhaseTable& table : b.phases) k.phases.push_back(table.view());
+
+  const Camera& c = scene.camera;
+  const double ch = std::cos(c.heading), sh = std::sin(c.heading), cp = std::cos(c.pitch), sp = std::sin(c.pitch);
+  const double cr = std::cos(c.roll), sr = std::sin(c.roll);
+  const glm::dvec3 forward(sh * cp, ch * cp, sp), level(ch, -sh, 0.0), above(-sh * sp, -ch * sp, cp);
+  const glm::dvec3 right = level * cr - above * sr, top = above * cr + level * sr;
+  const double half = std::tan(0.5 * c.fov), pixel = 2.0 * half / settings.width;
+  k.right = right * pixel;
+  k.down = -top * pixel;
+  k.corner = forward - right * half + top * (0.5 * pixel * settings.height);
+  k.pixelAngle = static_cast<float>(pixel);
+
+  totals_.resize(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
+  for (int y = 0; y < settings.height; y += kTile)
+    for (int x = 0; x < settings.width; x += kTile)
+      tiles_.push_back({x, y, std::min(kTile, settings.width - x), std::min(kTile, settings.height - y)});
+}
+
+PathTracer::~PathTracer() = default;
+
+double PathTracer::errorOf(const Tile& tile) const {
+  double variance = 0.0, sum = 0.0;
+  const double n = tile.samples;
+  for (int y = tile.y; y < tile.y + tile.height; ++y)
+    for (int x = tile.x; x < tile.x + tile.width; ++x) {
+      const Totals& t = totals_[static_cast<std::size_t>(y) * settings_.width + x];
+      const double mean = (0.2126 * t.radiance[0] + 0.7152 * t.radiance[1] + 0.0722 * t.radiance[2]) / n;
+      variance += std::max(t.square / n - mean * mean, 0.0) / (n - 1.0);
+      sum += mean;
+    }
+  const double pixels = static_cast<double>(tile.width) * tile.height;
+  return sum > 0.0 ? std::sqrt(variance / pixels) / (sum / pixels) : 0.0;
+}
+
+int PathTracer::nextSamples(const Tile& tile) const {
+  const int left = settings_.samples - tile.samples;
+  if (left <= 0) return 0;
+  if (settings_.noise <= 0.0) return std::min(left, kFirstSamples);
+  if (tile.samples == 0) return std::min(left, kFirstSamples);
+  const double share = errorOf(tile) / settings_.noise;
+  if (share <= 1.0) return 0;
+  // The error falls with the root of the samples. Never more than there are already: the estimate is noisy itself.
+  const double wanted = tile.samples * (share * share - 1.0);
+  return std::min(left, static_cast<int>(std::clamp(std::ceil(wanted), 4.0, static_cast<double>(tile.samples))));
+}
+
+void PathTracer::traceTile(Tile& tile, int samples) {
+  std::vector<PixelSums> sums(static_cast<std::size_t>(tile.width) * tile.height, PixelSums{});
+  const TileJob job{tile.x, tile.y, tile.width, tile.height, settings_.width, tile.samples, samples, seed_};
+  const KernelStatistics found = trace::traceTile(baked_->kernel, job, sums);
+  for (int y = 0; y < tile.height; ++y)
+    for (int x = 0; x < tile.width; ++x) {
+      const PixelSums& from = sums[static_cast<std::size_t>(y) * tile.width + x];
+      Totals& to = totals_[static_cast<std::size_t>(tile.y + y) * settings_.width + tile.x + x];
+      for (int c = 0; c < 3; ++c) {
+        to.radiance[c] += from.radiance[c];
+        to.single[c] += from.single[c];
+      }
+      to.square += from.square;
+      to.clear += from.clear;
+      to.depth += from.depth;
+    }
+  tile.samples += samples;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  statistics_.paths += found.paths;
+  statistics_.lookups += found.lookups;
+  statistics_.turns += found.turns;
+  statistics_.strides += found.strides;
+  statistics_.scatterings += found.scatterings;
+  statistics_.overBound += found.overBound;
+  statistics_.notFinite += found.notFinite;
+}
+
+bool PathTracer::run(const Progress& progress, const std::function<void()>& checkpoint) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  auto saved = start;
+  const auto since = [](Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); };
+  // What is done and what is left, in samples a pixel summed over tiles.
+  const auto share = [&] {
+    double done = 0.0, left = 0.0;
+    for (const Tile& tile : tiles_) {
+      done += tile.samples;
+      if (tile.done) continue;
+      const double most = settings_.samples - tile.samples;
+      const double error = settings_.noise > 0.0 && tile.samples > 0 ? errorOf(tile) / settings_.noise : 0.0;
+      left += error > 0.0 ? std::clamp(tile.samples * (error * error - 1.0), 0.0, most) : most;
+    }
+    const double byWork = done + left > 0.0 ? done / (done + left) : 1.0;
+    return settings_.seconds > 0.0 ? std::max(byWork, std::min(since(start) / settings_.seconds, 1.0)) : byWork;
+  };
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t first = 0; first < tiles_.size(); first += kGroup) {
+      std::vector<std::pair<Tile*, int>> work;
+      for (std::size_t i = first; i < std::min(first + kGroup, tiles_.size()); ++i) {
+        Tile& tile = tiles_[i];
+        if (tile.done) continue;
+        if (const int samples = nextSamples(tile); samples > 0)
+          work.emplace_back(&tile, samples);
+        else
+          tile.done = true;
+      }
+      if (work.empty()) continue;
+      any = true;
+      parallelFor(work.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) traceTile(*work[i].first, work[i].second);
+      });
+      if (checkpoint && since(saved) > kCheckpointSeconds) {
+        checkpoint();
+        saved = Clock::now();
+      }
+      if (progress && !progress(share())) return false;
+      if (settings_.seconds > 0.0 && since(start) > settings_.seconds) return true;
+    }
+  }
+  if (progress) progress(1.0);
+  return true;
+}
+
+TraceLayers PathTracer::layers() const {
+  const int w = settings_.width, h = settings_.height;
+  TraceLayers layers{Image(w, h, 3), Image(w, h, 1), Image(w, h, 3), Image(w, h, 3),
+                     Image(w, h, 1), Image(w, h, 1), Image(w, h, 1)};
+  for (const Tile& tile : tiles_) {
+    if (tile.samples == 0) continue;
+    const double n = tile.samples;
+    for (int y = tile.y; y < tile.y + tile.height; ++y)
+      for (int x = tile.x; x < tile.x + tile.width; ++x) {
+        const Totals& t = totals_[static_cast<std::size_t>(y) * w + x];
+        for (int c = 0; c < 3; ++c) {
+          layers.radiance.at(x, y)[c] = static_cast<float>(t.radiance[c] / n);
+          layers.direct.at(x, y)[c] = static_cast<float>(t.single[c] / n);
+          layers.multiple.at(x, y)[c] = static_cast<float>((t.radiance[c] - t.single[c]) / n);
+        }
+        const double mean = (0.2126 * t.radiance[0] + 0.7152 * t.radiance[1] + 0.0722 * t.radiance[2]) / n;
+        *layers.variance.at(x, y) =
+            n > 1.0 ? static_cast<float>(std::max(t.square / n - mean * mean, 0.0) / (n - 1.0)) : 0.0f;
+        *layers.transmittance.at(x, y) = static_cast<float>(t.clear / n);
+        const double met = n - t.clear;
+        *layers.depth.at(x, y) = met > 0.5 ? static_cast<float>(t.depth / met) : 0.0f;
+        *layers.samples.at(x, y) = static_cast<float>(n);
+      }
+  }
+  return layers;
+}
+
+namespace {
+constexpr char kMagic[8] = {'W', 'E', 'L', 'K', 'I', 'N', 'T', '1'};
+}
+
+std::vector<std::byte> PathTracer::state() const {
+  const std::size_t head = sizeof kMagic + 2 * sizeof(int);
+  std::vector<std::byte> bytes(head + tiles_.size() * 2 * sizeof(int) + totals_.size() * sizeof(Totals));
+  std::byte* at = bytes.data();
+  const auto put = [&](const void* from, std::size_t size) {
+    std::memcpy(at, from, size);
+    at += size;
+  };
+  put(kMagic, sizeof kMagic);
+  put(&settings_.width, sizeof(int));
+  put(&settings_.height, sizeof(int));
+  for (const Tile& tile : tiles_) {
+    const int done = tile.done ? 1 : 0;
+    put(&tile.samples, sizeof(int));
+    put(&done, sizeof(int));
+  }
+  put(totals_.data(), totals_.size() * sizeof(Totals));
+  return bytes;
+}
+
+void PathTracer::restore(std::span<const std::byte> bytes) {
+  if (bytes.size() != state().size() || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
+    throw Error(ErrorKind::badInput, "", "this is not a checkpoint of a picture of this size; delete it to start anew");
+  const std::byte* at = bytes.data() + sizeof kMagic;
+  const auto take = [&](void* to, std::size_t size) {
+    std::memcpy(to, at, size);
+    at += size;
+  };
+  int size[2];
+  take(size, sizeof size);
+  if (size[0] != settings_.width || size[1] != settings_.height)
+    throw Error(ErrorKind::badInput, "",
+                fmt::format("the checkpoint is of a picture of {}x{} pixels, not {}x{}", size[0], size[1],
+                            settings_.width, settings_.height));
+  for (Tile& tile : tiles_) {
+    int done = 0;
+    take(&tile.samples, sizeof(int));
+    take(&done, sizeof(int));
+    tile.done = done != 0;
+    if (tile.samples < 0) throw Error(ErrorKind::badInput, "", "the checkpoint is damaged; delete it to start anew");
+  }
+  take(totals_.data(), totals_.size() * sizeof(Totals));
+}
+
+}  // namespace welkin::trace

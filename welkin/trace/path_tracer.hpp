@@ -1,0 +1,88 @@
+#pragma once
+// The reference: a Monte Carlo path tracer for skies, without bias in its transport.
+//
+// Distances in cloud are drawn by delta tracking and the sun's light is dimmed by ratio tracking (Novak et al. 2014)
+// under local bounds (density/cloud_cache.hpp); the air is a medium of its own whose colour is handled by balancing over
+// the channels (Wilkie et al. 2014, Kutz et al. 2017). Roulette is compensated and no number of scatterings is the last.
+// What is not the law itself: the weather is cached on a fine lattice (13 m nearby) and bilinear in between, and the
+// air's transmittance to the sun comes from the table (3e-3 of it at most).
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "welkin/base/image.hpp"
+#include "welkin/base/progress.hpp"
+#include "welkin/noise/volume.hpp"
+#include "welkin/scene/scene.hpp"
+#include "welkin/trace/kernel.hpp"
+
+namespace welkin::trace {
+
+// medium: light is scattered by the air as by the clouds. tables: the sky and the air between the camera and what it
+// sees come from the real-time renderer's tables, as if there were no clouds: biased, faster, less noise. Skies that are
+// not physical are always taken from tables.
+enum class AirModel { medium, tables };
+
+struct TraceSettings {
+  int width = 1280, height = 720;
+  int samples = 64;      // of a pixel; with `noise` the most
+  double noise = 0.0;    // > 0: each tile of 16 x 16 pixels until its standard error (root mean square over the tile) is
+                         // this share of its mean luminance
+  double seconds = 0.0;  // > 0: stop then
+  AirModel air = AirModel::medium;
+};
+
+// What a traced picture consists of; all linear, kcd/m^2.
+struct TraceLayers {
+  Image radiance;       // RGB
+  Image variance;       // 1: variance of the mean of the luminance
+  Image direct;         // RGB: the sun's disc, and light that was scattered once
+  Image multiple;       // RGB: the rest
+  Image transmittance;  // 1: share of paths that meet no cloud
+  Image depth;          // 1: mean distance in m at which the others do; 0 where none does
+  Image samples;        // 1
+};
+
+class PathTracer {
+ public:
+  // `maps`: the authoring picture of every layer that names one, at its index. Throws Error (badInput).
+  PathTracer(const Scene& scene, std::span<const Volume> maps, const TraceSettings& settings);
+  ~PathTracer();
+
+  // Traces until the settings are met. `checkpoint`, if given, is called every few seconds between tiles. Cancelled by
+  // `progress`, it returns false; the picture so far is valid.
+  bool run(const Progress& progress, const std::function<void()>& checkpoint = {});
+
+  TraceLayers layers() const;
+  const KernelStatistics& statistics() const { return statistics_; }
+
+  // All that has been summed up so far. Restoring it into a tracer made from the same scene and settings goes on to the
+  // very same picture. restore throws Error (badInput) for anything that is not such a state.
+  std::vector<std::byte> state() const;
+  void restore(std::span<const std::byte> state);
+
+ private:
+  struct Totals;
+  struct Tile {
+    int x, y, width, height;
+    int samples = 0;
+    bool done = false;
+  };
+  void traceTile(Tile& tile, int samples);
+  int nextSamples(const Tile& tile) const;  // 0: enough
+  double errorOf(const Tile& tile) const;
+
+  struct Baked;
+  std::unique_ptr<Baked> baked_;
+  TraceSettings settings_;
+  std::uint32_t seed_;
+  std::vector<Totals> totals_;  // of every pixel
+  std::vector<Tile> tiles_;
+  KernelStatistics statistics_;
+};
+
+}  // namespace welkin::trace
