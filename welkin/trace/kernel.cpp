@@ -31,10 +31,15 @@ constexpr float kLongStep = 3500.0f;  // m: straight air rises 1 m above its tan
 constexpr int kStrides = 6;           // pieces of empty air before the density is asked again
 constexpr int kFreeScatterings = 128;  // before roulette begins where the throughput does not fall
 constexpr int kMostScatterings = 1 << 20;
+// Chance of a branch: kBranching times the phase function toward the sun, summed over channels, within limits; by measured
+// efficiency.
+constexpr float kBranching = 1.0f, kLeastBranching = 0.05f, kMostBranching = 0.5f;
 
 HWY_INLINE Mask andNot(Mask a, Mask b) { return both(a, invert(b)); }
 HWY_INLINE std::size_t countOf(Mask m) { return law::hn::CountTrue(law::D(), m.m); }
-HWY_INLINE Vec3 vec(const glm::vec4& v) { return Vec3(v.x, v.y, v.z); }
+HWY_INLINE Mask isComponent(Real component, std::size_t i) {
+  return law::abs(component - static_cast<float>(i)) < 0.5f;
+}
 HWY_INLINE Real sumOf(Vec3 v) { return v.x + v.y + v.z; }
 HWY_INLINE Real greatest(Vec3 v) { return law::max(law::max(v.x, v.y), v.z); }
 
@@ -75,6 +80,7 @@ class Paths {
     alive_ = law::toMask(false);
     place_ = Vec3(Real(0.0f));
     way_ = Vec3(Real(0.0f), Real(0.0f), Real(1.0f));
+    aim(alive_, Vec3(Real(0.0f)));
     clearLanes();
     for (;;) {
       refill();
@@ -92,6 +98,11 @@ class Paths {
     muCloud_ = muAir_ = Real(0.0f);
     shadow_ = law::toMask(false);
     toGround_ = toSky_ = done_ = law::toMask(false);
+    branch_ = branches_ = law::toMask(false);
+    share_ = Real(1.0f);
+    savedWay_ = Vec3(Real(0.0f));
+    savedCount_ = Real(0.0f);
+    branchBeta_ = branchWay_ = branchRatio_ = vertex_ = savedBeta_ = savedRatio_ = Vec3(Real(0.0f));
     beta_ = ratio_ = hero_ = light_ = single_ = pending_ = nextWay_ = Vec3(Real(0.0f));
     through_ = depth_ = clear_ = Real(0.0f);
     count_ = Real(0.0f);
@@ -147,6 +158,8 @@ class Paths {
     single_ = select(start, none, single_);
     depth_ = select(start, Real(0.0f), depth_);
     clear_ = select(start, Real(1.0f), clear_);
+    branch_ = andNot(branch_, start);
+    branches_ = andNot(branches_, start);
     count_ = select(start, Real(0.0f), count_);
     place_ = select(start, none, place_);
     alive_ = either(alive_, start);
@@ -155,7 +168,7 @@ class Paths {
 
   // Sends lanes on their path from place_ along `way`.
   void begin(Mask lanes, Vec3 way) {
-    way_ = select(lanes, way, way_);
+    aim(lanes, way);
     shadow_ = andNot(shadow_, lanes);
     const Real altitude = law::altitudeAt(place_, planet_);
     // Places outside the air skip the way to it.
@@ -172,6 +185,12 @@ class Paths {
     const Real entry = cTop / law::max(law::sqrt(law::max(discTop, 0.0f)) - b, 1e-3f);
     t_ = select(lanes, select(enters, entry, Real(0.0f)), t_);
     draw(lanes);
+  }
+
+  void aim(Mask lanes, Vec3 way) {
+    way_ = select(lanes, way, way_);
+    inverseX_ = Real(1.0f) / law::max(law::abs(way_.x), 1e-9f);
+    inverseY_ = Real(1.0f) / law::max(law::abs(way_.y), 1e-9f);
   }
 
   void draw(Mask lanes) { tau_ = select(lanes, -law::log(1.0f - next(random_, lanes)), tau_); }
@@ -248,20 +267,20 @@ class Paths {
 
   // The bound of the cell round p; shortens `reach` to the cell's end.
   Real cellBound(Vec3 p, Real h, Real rise, Real inverseRise, Real& reach) {
-    const Real far = law::max(law::abs(p.x), law::abs(p.y));
-    Real cell = 1.0f;
-    Int offset = 0;
-    Mask known = law::toMask(false);
-    for (std::size_t k = m_.levels.size(); k-- > 0;) {
-      const MajorantLevel& level = m_.levels[k];
-      const Mask in = far < -level.origin.x;
-      known = either(known, in);
-      cell = select(in, Real(level.cell), cell);
-      offset = select(in, Int(static_cast<std::int32_t>(level.offset)), offset);
-    }
+    // The finest level that holds p: each is twice as wide as the one before.
     const MajorantLevel& first = m_.levels.front();
+    const Real far = law::max(law::abs(p.x), law::abs(p.y)) * (-1.0f / first.origin.x);
+    const Int exponent = Int(law::hn::ShiftRight<23>(law::hn::BitCast(law::DI(), far.v))) - Int(126);
+    const Int k = law::max(exponent, Int(0));
+    const Mask known = k < Int(static_cast<std::int32_t>(m_.levels.size()));
+    const Int level = select(known, k, Int(0));
+    const auto powerOfTwo = [](Int e) -> Real {
+      return law::hn::BitCast(law::D(), law::hn::ShiftLeft<23>((e + Int(127)).v));
+    };
+    const Real cell = first.cell * powerOfTwo(level), inverseCell = (1.0f / first.cell) * powerOfTwo(-level);
+    const Int offset = level * Int(static_cast<std::int32_t>(first.n * first.n * first.layers));
     const float half = 0.5f * static_cast<float>(first.n);
-    const Real x = law::floor(p.x / cell), y = law::floor(p.y / cell);
+    const Real x = law::floor(p.x * inverseCell), y = law::floor(p.y * inverseCell);
     const Real z = law::clamp(law::floor((h - first.origin.z) * (1.0f / first.height)), Real(0.0f),
                               Real(static_cast<float>(first.layers - 1)));
     const auto index = [&](Real c) {
@@ -271,11 +290,10 @@ class Paths {
     const Real bound = law::gather(m_.bounds.data(), offset + (law::toInt(z) * n + index(y)) * n + index(x));
     // Out of the cell, or of all the empty cells round it.
     const Real free = law::max(-bound - 1.0f, 0.0f);
-    const auto exit = [&](Real at, Real i, Real way) {
-      const Real ahead = select(way > 0.0f, (i + 1.0f + free) * cell - at, at - (i - free) * cell);
-      return ahead / law::max(law::abs(way), 1e-9f);
+    const auto exit = [&](Real at, Real i, Real way, Real inverse) {
+      return select(way > 0.0f, (i + 1.0f + free) * cell - at, at - (i - free) * cell) * inverse;
     };
-    Real out = law::min(exit(p.x, x, way_.x), exit(p.y, y, way_.y));
+    Real out = law::min(exit(p.x, x, way_.x, inverseX_), exit(p.y, y, way_.y, inverseY_));
     const Real low = first.origin.z + (z - free) * first.height;
     const Real high = first.origin.z + (z + 1.0f + free) * first.height;
     out = law::min(out, select(rise > 0.0f, high - h, h - low) * inverseRise);
@@ -331,7 +349,7 @@ class Paths {
     if (!noneOf(inAir)) byAir = meetAir(inAir, xi, h);
     scattered = either(scattered, byAir);
     draw(both(candidate, alive_));
-    if (!noneOf(scattered)) scatter(scattered, byAir, component, p, h);
+    if (!noneOf(scattered)) scatter(scattered, byAir, select(scattered, component, Real(-1.0f)), p, h);
     const Mask lit = both(shadow_, toSky_);
     if (!noneOf(lit)) arrive(lit);
     const Mask blocked = both(shadow_, toGround_);
@@ -381,9 +399,9 @@ class Paths {
   Vec3 phaseOf(Mask byAir, Real component, Vec3 share, Real versine) {
     Real grey = 0.0f;
     for (std::size_t i = 0; i < s_.components.size(); ++i) {
-      const Mask mine = both(component > static_cast<float>(i) - 0.5f, component < static_cast<float>(i) + 0.5f);
+      const Mask mine = isComponent(component, i);
       if (noneOf(mine)) continue;
-      grey = select(mine, target::evaluatePhase(s_.phases[static_cast<std::size_t>(s_.components[i].phase)], versine),
+      grey = select(mine, target::evaluatePhase(phaseTable(i), versine),
                     grey);
     }
     Vec3 all(grey);
@@ -405,12 +423,7 @@ class Paths {
     clear_ = select(andNot(lanes, byAir), select(cloudFirst, Real(0.0f), clear_), clear_);
     seeThroughAir(first);
     place_ = select(lanes, p, place_);
-    // Absorption.
-    Real albedo = 1.0f;
-    for (std::size_t i = 0; i < s_.components.size(); ++i)
-      albedo = select(both(component > static_cast<float>(i) - 0.5f, component < static_cast<float>(i) + 0.5f),
-                      Real(s_.components[i].albedo), albedo);
-    beta_ = select(lanes, beta_ * albedo, beta_);
+    beta_ = select(lanes, beta_ * albedoOf(component), beta_);
     // Molecules' share of the air's scattering in every channel.
     Vec3 share(Real(0.0f));
     if (!noneOf(byAir)) {
@@ -423,15 +436,16 @@ class Paths {
     const Vec3 before = way_;
     // The direction to go on in.
     const Real u = next(random_, lanes), azimuth = next(random_, lanes);
-    Real versine = 0.0f;
-    Vec3 weight(Real(1.0f));
+    Vec3 weight(Real(1.0f)), ratioWeight(Real(1.0f)), onward = before;
+    Real density(0.0f);  // of the direction, mean over channels
     for (std::size_t i = 0; i < s_.components.size(); ++i) {
-      const Mask mine = both(component > static_cast<float>(i) - 0.5f, component < static_cast<float>(i) + 0.5f);
+      const Mask mine = isComponent(component, i);
       if (noneOf(mine)) continue;
-      const PhaseTableView& table = s_.phases[static_cast<std::size_t>(s_.components[i].phase)];
+      const PhaseTableView& table = phaseTable(i);
       const PhaseSample sample = target::samplePhase(table, u);
-      versine = select(mine, sample.versine, versine);
+      onward = select(mine, turned(before, sample.versine, azimuth), onward);
       weight = select(mine, Vec3(target::evaluatePhase(table, sample.versine) / sample.pdf), weight);
+      density = select(mine, sample.pdf, density);
     }
     if (!noneOf(byAir)) {
       const Real chosen = law::dot(share, hero_);
@@ -446,24 +460,75 @@ class Paths {
       const PhaseTableView& table = s_.phases[static_cast<std::size_t>(s_.aerosolPhase)];
       const PhaseSample sample = target::samplePhase(table, again);
       const Real turn = select(molecule, 1.0f - cosine, sample.versine);
-      versine = select(byAir, turn, versine);
+      onward = select(byAir, turned(before, turn, azimuth), onward);
       const Vec3 truth = phaseOf(byAir, Real(-1.0f), share, turn);
       const Real pR = law::phaseRayleigh(1.0f - turn), pM = target::phasePdf(table, turn);
-      const Real density = law::max(chosen * pR + (1.0f - chosen) * pM, 1e-20f);
+      const Real inverse = Real(1.0f) / law::max(chosen * pR + (1.0f - chosen) * pM, 1e-20f);
       const Vec3 densities = share * pR + (Vec3(Real(1.0f)) - share) * pM;
-      weight = select(byAir, truth * (Real(1.0f) / density), weight);
-      nextRatio_ = select(byAir, densities * (Real(1.0f) / density), Vec3(Real(1.0f)));
-    } else {
-      nextRatio_ = Vec3(Real(1.0f));
+      weight = select(byAir, truth * inverse, weight);
+      ratioWeight = select(byAir, densities * inverse, ratioWeight);
+      density = select(byAir, sumOf(densities) * (1.0f / 3.0f), density);
     }
-    nextWay_ = select(lanes, turned(before, versine, azimuth), nextWay_);
+    nextWay_ = select(lanes, onward, nextWay_);
+    planBranch(lanes, phaseSun, density, [&](Vec3 way, Vec3& phase, Real& pdf) {
+      const Real versine = versineBetween(before, way);
+      phase = phaseOf(byAir, component, share, versine);
+      pdf = Real(0.0f);
+      for (std::size_t i = 0; i < s_.components.size(); ++i) {
+        const Mask mine = isComponent(component, i);
+        if (!noneOf(mine)) pdf = select(mine, target::phasePdf(phaseTable(i), versine), pdf);
+      }
+      if (noneOf(byAir)) return;
+      const Real pM = target::phasePdf(s_.phases[static_cast<std::size_t>(s_.aerosolPhase)], versine);
+      const Vec3 densities = share * law::phaseRayleigh(1.0f - versine) + (Vec3(Real(1.0f)) - share) * pM;
+      pdf = select(byAir, sumOf(densities) * (1.0f / 3.0f), pdf);
+    });
     askSun(lanes, toSun, beta_ * phaseSun, h);
-    beta_ = select(lanes, beta_ * weight, beta_);
-    ratio_ = select(lanes, ratio_ * nextRatio_, ratio_);
+    beta_ = select(lanes, beta_ * weight * share_, beta_);
+    ratio_ = select(lanes, ratio_ * ratioWeight, ratio_);
     const Mask dies = roulette(lanes);
     nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
     // Lanes that the sun cannot reach go on at once.
     resume(andNot(lanes, shadow_));
+  }
+
+  // Light that travels nearly along the sunbeams is far brighter than all other, by the forward peaks of its last
+  // scatterings; a path finds it by chance only. So paths branch: with some chance a second one goes on from the same
+  // place, drawn about the sun's direction, and all that the two find further on is shared by the balance heuristic
+  // (Veach and Guibas 1995). Branches do not branch. `at` answers phase function and density of a direction, `density`
+  // is that of the path's own.
+  template <class At>
+  void planBranch(Mask lanes, Vec3 phaseSun, Real density, const At& at) {
+    share_ = Real(1.0f);
+    const Mask free = andNot(lanes, branch_);
+    if (s_.components.empty() || noneOf(free)) return;
+    const PhaseTableView& table = phaseTable(0);
+    const Real chance = law::clamp(sumOf(phaseSun) * kBranching, Real(kLeastBranching), Real(kMostBranching));
+    const Real pathLobe = target::phasePdf(table, versineBetween(sun_, nextWay_));
+    share_ = select(free, density / law::max(density + chance * pathLobe, 1e-20f), share_);
+    const Mask chosen = both(free, next(random_, free) < chance);
+    const Real u = next(random_, chosen), azimuth = next(random_, chosen);
+    if (noneOf(chosen)) return;
+    const PhaseSample sample = target::samplePhase(table, u);
+    const Vec3 way = turned(sun_, sample.versine, azimuth);
+    Vec3 phase(Real(0.0f));
+    Real pdf = 0.0f;
+    at(way, phase, pdf);
+    const Vec3 beta = beta_ * phase * (Real(1.0f) / law::max(pdf + chance * sample.pdf, 1e-20f));
+    branchBeta_ = select(chosen, beta, branchBeta_);
+    branchWay_ = select(chosen, way, branchWay_);
+    branchRatio_ = select(chosen, ratio_, branchRatio_);
+    branches_ = either(branches_, both(chosen, greatest(beta) > 0.0f));
+  }
+
+  const PhaseTableView& phaseTable(std::size_t component) const {
+    return s_.phases[static_cast<std::size_t>(s_.components[component].phase)];
+  }
+  Real albedoOf(Real component) const {
+    Real albedo = 1.0f;
+    for (std::size_t i = 0; i < s_.components.size(); ++i)
+      albedo = select(isComponent(component, i), Real(s_.components[i].albedo), albedo);
+    return albedo;
   }
 
   // A direction to a point of the sun's disc.
@@ -485,7 +550,7 @@ class Paths {
     const Mask seen = both(lanes, both(cosZenith > law::horizonCosine(air_, altitude), sumOf(value) > 0.0f));
     pending_ = select(seen, value, pending_);
     through_ = select(seen, Real(1.0f), through_);
-    way_ = select(seen, toSun, way_);
+    aim(seen, toSun);
     t_ = select(seen, Real(0.0f), t_);
     end_ = select(seen, Real(kNever), end_);
     shadow_ = either(shadow_, seen);
@@ -499,14 +564,49 @@ class Paths {
     single_ = select(both(lanes, count_ < 1.5f), single_ + value, single_);
   }
 
-  // Lanes that have asked for the sun go on along their path; those that roulette ended are done.
+  // Lanes that have asked for the sun go on: along the branch, if there is one, else along the path.
   void resume(Mask lanes) {
     if (noneOf(lanes)) return;
-    const Mask dead = both(lanes, law::dot(nextWay_, nextWay_) < 0.5f);
-    done_ = either(done_, dead);
     shadow_ = andNot(shadow_, lanes);
+    const Mask branches = both(lanes, branches_);
+    if (!noneOf(branches)) {
+      vertex_ = select(branches, place_, vertex_);
+      savedBeta_ = select(branches, beta_, savedBeta_);
+      savedRatio_ = select(branches, ratio_, savedRatio_);
+      savedWay_ = select(branches, nextWay_, savedWay_);
+      savedCount_ = select(branches, count_, savedCount_);
+      beta_ = select(branches, branchBeta_, beta_);
+      ratio_ = select(branches, branchRatio_, ratio_);
+      nextWay_ = select(branches, branchWay_, nextWay_);
+      branch_ = either(branch_, branches);
+      branches_ = andNot(branches_, branches);
+      const Mask dies = roulette(branches);
+      nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
+    }
+    goOn(lanes);
+  }
+
+  // Along nextWay_, or, if roulette has ended that, back to where the branch left the path.
+  void goOn(Mask lanes) {
+    const Mask dead = both(lanes, law::dot(nextWay_, nextWay_) < 0.5f);
     const Mask goes = andNot(lanes, dead);
     if (!noneOf(goes)) begin(goes, nextWay_);
+    finish(dead);
+  }
+
+  // Paths that have come to their end; those of branches return to the path.
+  void finish(Mask lanes) {
+    if (noneOf(lanes)) return;
+    const Mask back = both(lanes, branch_);
+    done_ = either(done_, andNot(lanes, back));
+    if (noneOf(back)) return;
+    place_ = select(back, vertex_, place_);
+    beta_ = select(back, savedBeta_, beta_);
+    ratio_ = select(back, savedRatio_, ratio_);
+    nextWay_ = select(back, savedWay_, nextWay_);
+    count_ = select(back, savedCount_, count_);
+    branch_ = andNot(branch_, back);
+    goOn(back);
   }
 
   // Ends paths whose throughput is faint, or that have been scattered very often, and compensates the others.
@@ -542,7 +642,13 @@ class Paths {
     const Real cosine = law::max(law::dot(normal, toSun), 0.0f);
     const Real u = next(random_, lanes), azimuth = next(random_, lanes);
     nextWay_ = select(lanes, turned(normal, 1.0f - law::sqrt(u), azimuth), nextWay_);
+    const auto lambert = [&](Vec3 way) { return law::max(law::dot(normal, way), 0.0f) * (1.0f / kPi); };
+    planBranch(lanes, Vec3(lambert(sun_)), lambert(nextWay_), [&](Vec3 way, Vec3& phase, Real& pdf) {
+      pdf = lambert(way);
+      phase = Vec3(pdf);
+    });
     askSun(lanes, toSun, beta_ * (cosine * (1.0f / kPi)), law::altitudeAt(place_, planet_));
+    beta_ = select(lanes, beta_ * share_, beta_);
     const Mask dies = roulette(lanes);
     nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
     resume(andNot(lanes, shadow_));
@@ -561,7 +667,7 @@ class Paths {
       if (!s_.airScatters) disc = disc * law::lookupTransmittance(s_.transmittance, air_, air_.cameraAltitude, way_.z);
       light_ = select(first, light_ + disc, light_);
     }
-    done_ = either(done_, lanes);
+    finish(lanes);
   }
 
   // Adds finished paths to their pixels.
@@ -613,13 +719,19 @@ class Paths {
   Random random_;
   Uint index_;               // pixel in the tile
   Mask alive_, shadow_;      // has a path; asks for the sun
+  Mask branch_, branches_;   // is on a branch; will branch
   Mask toGround_, toSky_, done_;
   Vec3 place_, way_;         // relative to the camera; unit
+  Real inverseX_, inverseY_; // 1 / |way_|
   Real t_, tau_, end_;       // m along way_; optical depth to go; where the ground is
   Real muCloud_, muAir_;     // bounds at the tentative collision, 1/m
   Vec3 beta_, ratio_;        // throughput over the density of the deciding channel; density of each channel over that
   Vec3 hero_;                // 1 for the deciding channel
-  Vec3 nextRatio_, nextWay_; // of the path while the sun is asked for
+  Vec3 nextWay_;             // of the path while the sun is asked for
+  Vec3 branchBeta_, branchWay_, branchRatio_;         // of the branch to come
+  Vec3 vertex_, savedBeta_, savedRatio_, savedWay_;   // of the path while its branch is under way
+  Real savedCount_;
+  Real share_;  // of what is found further on that is the path's, not the branch's
   Vec3 pending_;             // what arrives if nothing is in the way
   Real through_;             // and the share that does
   Vec3 light_, single_;
@@ -630,12 +742,16 @@ static KernelStatistics trace(const KernelScene& scene, const TileJob& job, std:
   return Paths(scene, job, pixels).run();
 }
 
+static std::size_t lanes() { return law::laneCount(); }
+
 }  // namespace welkin::trace::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace welkin::trace {
 HWY_EXPORT(trace);
+HWY_EXPORT(lanes);
+std::size_t laneCount() { return HWY_DYNAMIC_DISPATCH(lanes)(); }
 KernelStatistics traceTile(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels) {
   return HWY_DYNAMIC_DISPATCH(trace)(scene, job, pixels);
 }

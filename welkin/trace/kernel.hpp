@@ -65,4 +65,7 @@ struct TileJob {
 // target.
 KernelStatistics traceTile(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels);
 
+// Paths that are traced side by side by one core of this machine.
+std::size_t laneCount();
+
 }  // namespace welkin::trace
