@@ -611,7 +611,10 @@ class Paths {
 
   // Ends paths whose throughput is faint, or that have been scattered very often, and compensates the others.
   Mask roulette(Mask lanes) {
-    const Real strength = greatest(beta_) * balance();
+    Real strength = greatest(beta_) * balance();
+    // A path along the sunbeams is worth as much more as its next scattering will be brighter.
+    if (!s_.components.empty() && !noneOf(both(lanes, strength < 0.25f)))
+      strength *= 1.0f + (4.0f * kPi) * target::phasePdf(phaseTable(0), versineBetween(sun_, nextWay_));
     Real survives = law::clamp(strength * 4.0f, Real(0.05f), Real(1.0f));
     survives = select(count_ > static_cast<float>(kFreeScatterings), law::min(survives, Real(0.98f)), survives);
     const Mask at = both(lanes, survives < 1.0f);
