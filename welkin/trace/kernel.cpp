@@ -31,6 +31,7 @@ constexpr float kLongStep = 3500.0f;  // m: straight air rises 1 m above its tan
 constexpr int kStrides = 6;           // pieces of empty air before the density is asked again
 constexpr int kFreeScatterings = 128;  // before roulette begins where the throughput does not fall
 constexpr int kMostScatterings = 1 << 20;
+constexpr int kMostLevels = 4;  // of branches of branches
 // Chance of a branch: kBranching times the phase function toward the sun, summed over channels, within limits; by measured
 // efficiency.
 constexpr float kBranching = 1.0f, kLeastBranching = 0.05f, kMostBranching = 0.5f;
@@ -98,11 +99,14 @@ class Paths {
     muCloud_ = muAir_ = Real(0.0f);
     shadow_ = law::toMask(false);
     toGround_ = toSky_ = done_ = law::toMask(false);
-    branch_ = branches_ = law::toMask(false);
+    branches_ = law::toMask(false);
+    level_ = Real(0.0f);
     share_ = Real(1.0f);
-    savedWay_ = Vec3(Real(0.0f));
-    savedCount_ = Real(0.0f);
-    branchBeta_ = branchWay_ = branchRatio_ = vertex_ = savedBeta_ = savedRatio_ = Vec3(Real(0.0f));
+    for (Left& left : left_) {
+      left.place = left.beta = left.ratio = left.way = Vec3(Real(0.0f));
+      left.count = Real(0.0f);
+    }
+    branchBeta_ = branchWay_ = branchRatio_ = Vec3(Real(0.0f));
     beta_ = ratio_ = hero_ = light_ = single_ = pending_ = nextWay_ = Vec3(Real(0.0f));
     through_ = depth_ = clear_ = Real(0.0f);
     count_ = Real(0.0f);
@@ -158,7 +162,7 @@ class Paths {
     single_ = select(start, none, single_);
     depth_ = select(start, Real(0.0f), depth_);
     clear_ = select(start, Real(1.0f), clear_);
-    branch_ = andNot(branch_, start);
+    level_ = select(start, Real(0.0f), level_);
     branches_ = andNot(branches_, start);
     count_ = select(start, Real(0.0f), count_);
     place_ = select(start, none, place_);
@@ -494,27 +498,31 @@ class Paths {
 
   // Light that travels nearly along the sunbeams is far brighter than all other, by the forward peaks of its last
   // scatterings; a path finds it by chance only. So paths branch: with some chance a second one goes on from the same
-  // place, drawn about the sun's direction, and all that the two find further on is shared by the balance heuristic
-  // (Veach and Guibas 1995). Branches do not branch. `at` answers phase function and density of a direction, `density`
+  // place, drawn in the aureole round the sun, and all that the two find further on is shared by the balance heuristic
+  // (Veach and Guibas 1995). Branches branch too, up to kMostLevels. `at` answers phase function and density of a direction, `density`
   // is that of the path's own.
   template <class At>
   void planBranch(Mask lanes, Vec3 phaseSun, Real density, const At& at) {
     share_ = Real(1.0f);
-    const Mask free = andNot(lanes, branch_);
+    const Mask free = both(lanes, level_ < static_cast<float>(kMostLevels) - 0.5f);
     if (s_.components.empty() || noneOf(free)) return;
     const PhaseTableView& table = phaseTable(0);
     const Real chance = law::clamp(sumOf(phaseSun) * kBranching, Real(kLeastBranching), Real(kMostBranching));
-    const Real pathLobe = target::phasePdf(table, versineBetween(sun_, nextWay_));
+    const Real fromSun = versineBetween(sun_, nextWay_);
+    Real pathLobe(0.0f);
+    if (!noneOf(fromSun < s_.aureole))
+      pathLobe = select(fromSun < s_.aureole, target::phasePdf(table, fromSun) * (1.0f / s_.aureoleShare), pathLobe);
     share_ = select(free, density / law::max(density + chance * pathLobe, 1e-20f), share_);
     const Mask chosen = both(free, next(random_, free) < chance);
     const Real u = next(random_, chosen), azimuth = next(random_, chosen);
     if (noneOf(chosen)) return;
-    const PhaseSample sample = target::samplePhase(table, u);
+    const PhaseSample sample = target::samplePhase(table, u * s_.aureoleShare);
+    const Real lobe = sample.pdf * (1.0f / s_.aureoleShare);
     const Vec3 way = turned(sun_, sample.versine, azimuth);
     Vec3 phase(Real(0.0f));
     Real pdf = 0.0f;
     at(way, phase, pdf);
-    const Vec3 beta = beta_ * phase * (Real(1.0f) / law::max(pdf + chance * sample.pdf, 1e-20f));
+    const Vec3 beta = beta_ * phase * (Real(1.0f) / law::max(pdf + chance * lobe, 1e-20f));
     branchBeta_ = select(chosen, beta, branchBeta_);
     branchWay_ = select(chosen, way, branchWay_);
     branchRatio_ = select(chosen, ratio_, branchRatio_);
@@ -570,15 +578,20 @@ class Paths {
     shadow_ = andNot(shadow_, lanes);
     const Mask branches = both(lanes, branches_);
     if (!noneOf(branches)) {
-      vertex_ = select(branches, place_, vertex_);
-      savedBeta_ = select(branches, beta_, savedBeta_);
-      savedRatio_ = select(branches, ratio_, savedRatio_);
-      savedWay_ = select(branches, nextWay_, savedWay_);
-      savedCount_ = select(branches, count_, savedCount_);
+      for (int k = 0; k < kMostLevels; ++k) {
+        const Mask here = both(branches, law::abs(level_ - static_cast<float>(k)) < 0.5f);
+        if (noneOf(here)) continue;
+        Left& left = left_[k];
+        left.place = select(here, place_, left.place);
+        left.beta = select(here, beta_, left.beta);
+        left.ratio = select(here, ratio_, left.ratio);
+        left.way = select(here, nextWay_, left.way);
+        left.count = select(here, count_, left.count);
+      }
+      level_ = select(branches, level_ + 1.0f, level_);
       beta_ = select(branches, branchBeta_, beta_);
       ratio_ = select(branches, branchRatio_, ratio_);
       nextWay_ = select(branches, branchWay_, nextWay_);
-      branch_ = either(branch_, branches);
       branches_ = andNot(branches_, branches);
       const Mask dies = roulette(branches);
       nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
@@ -597,15 +610,20 @@ class Paths {
   // Paths that have come to their end; those of branches return to the path.
   void finish(Mask lanes) {
     if (noneOf(lanes)) return;
-    const Mask back = both(lanes, branch_);
+    const Mask back = both(lanes, level_ > 0.5f);
     done_ = either(done_, andNot(lanes, back));
     if (noneOf(back)) return;
-    place_ = select(back, vertex_, place_);
-    beta_ = select(back, savedBeta_, beta_);
-    ratio_ = select(back, savedRatio_, ratio_);
-    nextWay_ = select(back, savedWay_, nextWay_);
-    count_ = select(back, savedCount_, count_);
-    branch_ = andNot(branch_, back);
+    level_ = select(back, level_ - 1.0f, level_);
+    for (int k = 0; k < kMostLevels; ++k) {
+      const Mask here = both(back, law::abs(level_ - static_cast<float>(k)) < 0.5f);
+      if (noneOf(here)) continue;
+      const Left& left = left_[k];
+      place_ = select(here, left.place, place_);
+      beta_ = select(here, left.beta, beta_);
+      ratio_ = select(here, left.ratio, ratio_);
+      nextWay_ = select(here, left.way, nextWay_);
+      count_ = select(here, left.count, count_);
+    }
     goOn(back);
   }
 
@@ -722,7 +740,7 @@ class Paths {
   Random random_;
   Uint index_;               // pixel in the tile
   Mask alive_, shadow_;      // has a path; asks for the sun
-  Mask branch_, branches_;   // is on a branch; will branch
+  Mask branches_;            // will branch
   Mask toGround_, toSky_, done_;
   Vec3 place_, way_;         // relative to the camera; unit
   Real inverseX_, inverseY_; // 1 / |way_|
@@ -732,8 +750,12 @@ class Paths {
   Vec3 hero_;                // 1 for the deciding channel
   Vec3 nextWay_;             // of the path while the sun is asked for
   Vec3 branchBeta_, branchWay_, branchRatio_;         // of the branch to come
-  Vec3 vertex_, savedBeta_, savedRatio_, savedWay_;   // of the path while its branch is under way
-  Real savedCount_;
+  struct Left {
+    Vec3 place, beta, ratio, way;
+    Real count;
+  };
+  Left left_[kMostLevels];  // what branches left behind, to be taken up again
+  Real level_;              // how many
   Real share_;  // of what is found further on that is the path's, not the branch's
   Vec3 pending_;             // what arrives if nothing is in the way
   Real through_;             // and the share that does

@@ -34,6 +34,8 @@ struct KernelScene {
   bool airScatters = true;  // the air is a medium; else its tables stand for it
   TextureView transmittance, skyView, aerialInscatter, aerialTransmittance;
   int aerosolPhase = 0;  // table of the air's aerosol
+  float aureole = 0.0f;  // versine within which the first component's forward peak lies, and its share of the scattering
+  float aureoleShare = 1.0f;
   // Rays: corner + (x, y) right, down in pixels; not normalised.
   glm::vec3 corner{0.0f}, right{0.0f}, down{0.0f};
   float pixelAngle = 0.0f;  // rad

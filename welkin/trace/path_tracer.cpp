@@ -21,6 +21,7 @@ constexpr int kTile = 16;
 constexpr int kFirstSamples = 16;         // before the first estimate of a tile's noise
 constexpr std::size_t kGroup = 32;        // tiles between two looks at the clock
 constexpr double kCheckpointSeconds = 5;  // at least this long between two checkpoints
+constexpr float kAureole = 2.0f;          // 1/sr, where the forward peak ends: 25 times isotropic scattering
 constexpr double kIceAsymmetry = 0.78;    // .75 to .82 for ice
 
 // Largest extinction of the air in each step of altitude; beyond the last there is none.
@@ -94,6 +95,16 @@ PathTracer::PathTracer(const Scene& scene, std::span<const Volume> maps, const T
   }
   k.aerosolPhase = b.phaseOf(PhaseTable::henyeyGreenstein(scene.atmosphere.mieG));
   for (const PhaseTable& table : b.phases) k.phases.push_back(table.view());
+  if (!k.components.empty()) {
+    const PhaseTable& table = b.phases[static_cast<std::size_t>(k.components.front().phase)];
+    float low = 0.01f, high = 1.0f;
+    for (int i = 0; i < 20; ++i) {
+      const float middle = 0.5f * (low + high);
+      (table.evaluate(table.sample(middle).versine) > kAureole ? low : high) = middle;
+    }
+    k.aureoleShare = low;
+    k.aureole = table.sample(low).versine;
+  }
 
   const Camera& c = scene.camera;
   const double ch = std::cos(c.heading), sh = std::sin(c.heading), cp = std::cos(c.pitch), sp = std::sin(c.pitch);
