@@ -2,6 +2,7 @@
 // A sky as a picture of all directions: drawn in tiles, finished, and written with its sidecar.
 #include <string>
 
+#include "apps/welkin/traced.hpp"
 #include "welkin/base/progress.hpp"
 #include "welkin/scene/environment.hpp"
 
@@ -32,6 +33,9 @@ double centerHeadingOf(EnvironmentTarget target);
 
 // By the real-time renderer, from the scene's camera, in tiles of bounded size. Throws Error (noOpenGl).
 Environment renderEnvironment(const Scene& scene, const EnvironmentOptions& options);
+
+// The same, path-traced.
+Environment traceEnvironment(const Scene& scene, const EnvironmentOptions& options, const TraceOptions& trace);
 
 // Writes path (.exr or .hdr) and path.json.
 void saveEnvironment(const std::string& path, const Environment& environment, const Scene& scene,

@@ -1,4 +1,4 @@
-// The pictures of an environment by the real-time renderer.
+// The pictures of an environment by either renderer.
 #include <algorithm>
 
 #include "apps/welkin/environment_file.hpp"
@@ -26,6 +26,13 @@ DirectionalLight sunLight(const Scene& scene) {
   const glm::vec3 through =
       law::lookupTransmittanceToSun(air.transmittance.view(), sky.air, sky.air.cameraAltitude, sky.air.sunDirection.z);
   return {glm::dvec3(direction), glm::dvec3(glm::vec3(sky.air.sunIrradiance) * through)};
+}
+
+void finish(Environment& out, const EnvironmentPixels& pixels, const DirectionalLight& sun,
+            const std::vector<SunPixel>& disc, const EnvironmentOptions& options) {
+  out.lost = addSun(out.light, pixels, sun, disc, options.sun);
+  out.upward = upwardIrradiance(out.light, pixels);
+  if (out.lost) out.upward += out.lost->illuminance * std::max(out.lost->direction.z, 0.0);
 }
 
 }  // namespace
@@ -90,9 +97,43 @@ Environment renderEnvironment(const Scene& source, const EnvironmentOptions& opt
               through.at(static_cast<int>(p.index % width) - left, static_cast<int>(p.index / width) - firstRow)[0],
               0.0f, 1.0f);
     }
-  out.lost = addSun(out.light, pixels, sun, disc, options.sun);
-  out.upward = upwardIrradiance(out.light, pixels);
-  if (out.lost) out.upward += out.lost->illuminance * std::max(out.lost->direction.z, 0.0);
+  finish(out, pixels, sun, disc, options);
+  return out;
+}
+
+Environment traceEnvironment(const Scene& source, const EnvironmentOptions& options, const TraceOptions& trace) {
+  Scene scene = source;
+  const std::vector<Camera> cameras = environmentCameras(scene.camera, options.layout, options.centerHeading);
+  const EnvironmentPixels pixels(cameras, options.layout == EnvironmentLayout::cube ? options.size / 4 : options.size);
+  const DirectionalLight sun = sunLight(scene);
+  std::vector<SunPixel> disc = sunPixels(pixels, sun);
+  const int width = pixels.width(), height = pixels.pictureHeight();
+  trace::TraceSettings settings = traceSettings(trace);
+  settings.width = width;
+  settings.height = height;
+  settings.sunDisc = trace::SunDisc::leftOut;
+  settings.seconds /= static_cast<double>(cameras.size());
+  const std::vector<Volume> maps = weatherMaps(scene);
+  Environment out{Image(pixels.width(), pixels.height(), 3), {}, {}};
+  out.light.features = featuresOf(scene);
+  for (std::size_t picture = 0; picture < cameras.size(); ++picture) {
+    scene.camera = cameras[picture];
+    trace::PathTracer tracer(scene, maps, settings);
+    const double share = 1.0 / static_cast<double>(cameras.size());
+    const Progress stage = stageOf(options.progress, share * static_cast<double>(picture),
+                                   share * static_cast<double>(picture + 1));
+    if (!tracer.run(stage)) throw Cancelled();
+    const trace::TraceLayers layers = tracer.layers();
+    const std::size_t first = picture * static_cast<std::size_t>(height);
+    std::copy(layers.radiance.pixels.begin(), layers.radiance.pixels.end(),
+              out.light.at(0, static_cast<int>(first)));
+    for (SunPixel& p : disc) {
+      const std::size_t row = p.index / static_cast<std::size_t>(width);
+      if (row < first || row >= first + static_cast<std::size_t>(height)) continue;
+      p.transmittance = *layers.transmittance.at(static_cast<int>(p.index % width), static_cast<int>(row - first));
+    }
+  }
+  finish(out, pixels, sun, disc, options);
   return out;
 }
 

@@ -20,7 +20,9 @@ constexpr double kLargestHalf = 65504.0, kLargestFloat = 1e38;
 
 struct HdriArguments {
   SkyArguments sky;
-  std::string output, format, faces, target = "none", sun = "full", renderer = "realtime";
+  std::string output, format, faces, target = "none", sun = "full";
+  Renderer renderer = Renderer::realtime;
+  TraceOptions trace;
   std::optional<double> centerHeading;
   int size = 4096, frames = 0;
   bool noClouds = false, quiet = false;
@@ -68,7 +70,10 @@ void hdri(const HdriArguments& arguments) {
   requireWritable(arguments.output);
   ProgressDisplay display("rendering", arguments.quiet ? ProgressStyle::quiet : ProgressStyle::automatic);
   options.progress = display.callback();
-  saveEnvironment(arguments.output, renderEnvironment(scene, options), scene, options);
+  saveEnvironment(arguments.output,
+                  arguments.renderer == Renderer::path ? traceEnvironment(scene, options, arguments.trace)
+                                                       : renderEnvironment(scene, options),
+                  scene, options);
 }
 
 }  // namespace
@@ -112,7 +117,7 @@ void addHdri(CLI::App& app) {
       ->type_name("STYLE")
       ->capture_default_str();
   command->add_flag("--no-clouds", a.noClouds, "the clear sky alone");
-  command->add_option("--renderer", a.renderer, "realtime")->check(CLI::IsMember({"realtime"}))->capture_default_str();
+  addRendererOptions(*command, a.renderer, a.trace);
   command->add_option("--quality", a.sky.quality, "low, medium, high or ultra")->type_name("NAME");
   command->add_option("--frames", a.frames, "marches a pixel; 0 takes four")
       ->type_name("N")

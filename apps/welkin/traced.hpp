@@ -14,14 +14,20 @@ struct TraceOptions {
   int width = 1280, height = 720;
   int samples = 0;  // 0: 64, or 4096 at most where noise or seconds decide
   double noise = 0.0, seconds = 0.0;
-  std::string air = "medium", layers, checkpoint;
+  std::string air = "medium", checkpoint;
+  bool layers = false;
   Progress progress;
 };
 
-// --renderer, and what the path tracer can be told.
+// The tracer's settings for these options.
+trace::TraceSettings traceSettings(const TraceOptions& options);
+
+// --renderer, and how long the path tracer works; addStillOptions adds what makes sense for a single picture.
+void addStillOptions(CLI::App& command, TraceOptions& options);
 void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& options);
 
-// Traces the sky and writes the picture. Ctrl-C ends it early with the picture so far.
+// Traces the sky and writes the picture. Ctrl-C ends it early with the picture so far; a checkpoint, if asked for, is
+// taken up where it is found and removed once the picture is complete. Throws Error.
 void traceToFile(const Scene& scene, const TraceOptions& options, const std::string& output);
 
 }  // namespace welkin::app

@@ -12,6 +12,7 @@
 #include "welkin/atmosphere/law-inl.hpp"
 #include "welkin/density/law-inl.hpp"
 #include "welkin/noise/rows-inl.hpp"
+#include "welkin/scene/law-inl.hpp"
 #include "welkin/trace/kernel.hpp"
 #include "welkin/trace/phase_table-inl.hpp"
 #include "welkin/trace/random-inl.hpp"
@@ -67,7 +68,7 @@ class Paths {
   Paths(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels)
       : s_(scene), job_(job), pixels_(pixels), m_(scene.clouds->majorants),
         planet_(std::bit_cast<law::PlanetParams>(scene.planet)), air_(std::bit_cast<law::AtmosphereParams>(scene.air)),
-        total_(static_cast<std::size_t>(job.width) * job.height * job.samples) {
+        camera_(std::bit_cast<law::CameraParams>(scene.camera)), total_(static_cast<std::size_t>(job.width) * job.height * job.samples) {
     for (const auto& l : scene.clouds->layers) layers_.push_back(std::bit_cast<law::LayerParams>(l));
     for (const auto& c : scene.clouds->weather.clips) clips_.push_back(std::bit_cast<law::ClipParams>(c));
     for (const auto& h : scene.clouds->sheets) sheets_.push_back(std::bit_cast<law::SheetParams>(h));
@@ -148,7 +149,9 @@ class Paths {
     index_ = select(start, Uint(law::hn::Load(law::DU(), at)), index_);
     const Real jitterX = next(random_, start), jitterY = next(random_, start);
     const Real fx = Real(law::hn::Load(law::D(), x)) + jitterX, fy = Real(law::hn::Load(law::D(), y)) + jitterY;
-    const Vec3 ray = law::normalize(Vec3(s_.corner) + Vec3(s_.right) * fx + Vec3(s_.down) * fy);
+    const Vec2 ndc(fx * (2.0f / static_cast<float>(job_.imageWidth)) - 1.0f,
+                   1.0f - fy * (2.0f / static_cast<float>(job_.imageHeight)));
+    const Vec3 ray = law::normalize(law::cameraRay(ndc, camera_));
     const Real channel = law::floor(next(random_, start) * 3.0f);
     hero_ = select(start,
                    Vec3(select(channel < 0.5f, Real(1.0f), Real(0.0f)),
@@ -683,7 +686,7 @@ class Paths {
       light_ = select(lanes, light_ + sky, light_);
       single_ = select(both(lanes, count_ < 1.5f), single_ + sky, single_);
     }
-    if (!noneOf(first)) {
+    if (s_.sunDisc && !noneOf(first)) {
       Vec3 disc = law::sunDisc(air_, way_, Real(1e-6f)) * weight;
       if (!s_.airScatters) disc = disc * law::lookupTransmittance(s_.transmittance, air_, air_.cameraAltitude, way_.z);
       light_ = select(first, light_ + disc, light_);
@@ -732,6 +735,7 @@ class Paths {
   std::vector<law::SheetParams> sheets_;
   law::PlanetParams planet_;
   law::AtmosphereParams air_;
+  law::CameraParams camera_;
   float cloudTop_ = 0.0f, pathTop_ = 0.0f;  // m, above which a shadow ray and a path are free
   std::size_t total_, issued_ = 0;
   KernelStatistics statistics_;

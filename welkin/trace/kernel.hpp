@@ -6,6 +6,7 @@
 
 #include "welkin/atmosphere/tables.hpp"
 #include "welkin/density/cloud_cache.hpp"
+#include "welkin/scene/camera.hpp"
 #include "welkin/trace/phase_table.hpp"
 
 namespace welkin::trace {
@@ -36,9 +37,8 @@ struct KernelScene {
   int aerosolPhase = 0;  // table of the air's aerosol
   float aureole = 0.0f;  // versine within which the first component's forward peak lies, and its share of the scattering
   float aureoleShare = 1.0f;
-  // Rays: corner + (x, y) right, down in pixels; not normalised.
-  glm::vec3 corner{0.0f}, right{0.0f}, down{0.0f};
-  float pixelAngle = 0.0f;  // rad
+  law::CameraParams camera{};
+  bool sunDisc = true;  // whether the camera sees it
 };
 
 // Sums over the samples of one pixel.
@@ -58,7 +58,7 @@ struct KernelStatistics {
 
 struct TileJob {
   int x, y, width, height;  // pixels
-  int imageWidth;
+  int imageWidth, imageHeight;
   int firstSample, samples;  // of every pixel
   std::uint32_t seed;
 };

@@ -71,7 +71,7 @@ PathTracer::PathTracer(const Scene& scene, std::span<const Volume> maps, const T
                              .drift = {scene.wind.speed, scene.wind.from, scene.time},
                              .seed = scene.seed,
                              .weatherMaps = maps},
-                            {}, eye);
+                            {}, eye, settings.clouds);
   KernelScene& k = b.kernel;
   k.planet = planetParams(eye);
   b.sky = bakeSky(scene.atmosphere, sunDirection(scene.sun), std::max(k.planet.altitude, 0.0f), scene.ground.albedo);
@@ -106,16 +106,8 @@ PathTracer::PathTracer(const Scene& scene, std::span<const Volume> maps, const T
     k.aureole = table.sample(low).versine;
   }
 
-  const Camera& c = scene.camera;
-  const double ch = std::cos(c.heading), sh = std::sin(c.heading), cp = std::cos(c.pitch), sp = std::sin(c.pitch);
-  const double cr = std::cos(c.roll), sr = std::sin(c.roll);
-  const glm::dvec3 forward(sh * cp, ch * cp, sp), level(ch, -sh, 0.0), above(-sh * sp, -ch * sp, cp);
-  const glm::dvec3 right = level * cr - above * sr, top = above * cr + level * sr;
-  const double half = std::tan(0.5 * c.fov), pixel = 2.0 * half / settings.width;
-  k.right = right * pixel;
-  k.down = -top * pixel;
-  k.corner = forward - right * half + top * (0.5 * pixel * settings.height);
-  k.pixelAngle = static_cast<float>(pixel);
+  k.camera = cameraParams(scene.camera, static_cast<double>(settings.width) / settings.height);
+  k.sunDisc = settings.sunDisc == SunDisc::seen;
 
   totals_.resize(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
   for (int y = 0; y < settings.height; y += kTile)
@@ -153,7 +145,7 @@ int PathTracer::nextSamples(const Tile& tile) const {
 
 void PathTracer::traceTile(Tile& tile, int samples) {
   std::vector<PixelSums> sums(static_cast<std::size_t>(tile.width) * tile.height, PixelSums{});
-  const TileJob job{tile.x, tile.y, tile.width, tile.height, settings_.width, tile.samples, samples, seed_};
+  const TileJob job{tile.x, tile.y, tile.width, tile.height, settings_.width, settings_.height, tile.samples, samples, seed_};
   const KernelStatistics found = trace::traceTile(baked_->kernel, job, sums);
   for (int y = 0; y < tile.height; ++y)
     for (int x = 0; x < tile.width; ++x) {

@@ -27,6 +27,9 @@ namespace welkin::trace {
 // not physical are always taken from tables.
 enum class AirModel { medium, tables };
 
+// Whether the camera sees the sun itself.
+enum class SunDisc { seen, leftOut };
+
 struct TraceSettings {
   int width = 1280, height = 720;
   int samples = 64;      // of a pixel; with `noise` the most
@@ -34,6 +37,8 @@ struct TraceSettings {
                          // this share of its mean luminance
   double seconds = 0.0;  // > 0: stop then
   AirModel air = AirModel::medium;
+  SunDisc sunDisc = SunDisc::seen;
+  CloudCacheExtent clouds{};  // how finely the weather is cached
 };
 
 // What a traced picture consists of; all linear, kcd/m^2.

@@ -1,0 +1,217 @@
+// The path tracer against closed forms, quadrature and published radiances.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/error.hpp"
+#include "welkin/trace/path_tracer.hpp"
+
+namespace welkin::trace {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+const CloudCacheExtent kCoarse{.weather = {.texels = 256}, .cells = 64, .cellLayers = 32};
+
+struct Mean {
+  glm::dvec3 value{0.0};
+  double error = 0.0;  // standard error of the luminance
+};
+
+// Of all pixels, whose samples are independent.
+Mean meanOf(const TraceLayers& layers) {
+  Mean mean;
+  const double n = static_cast<double>(layers.variance.pixels.size());
+  for (std::size_t i = 0; i < layers.variance.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) mean.value[c] += layers.radiance.pixels[3 * i + static_cast<std::size_t>(c)] / n;
+    mean.error += layers.variance.pixels[i];
+  }
+  mean.error = std::sqrt(mean.error) / n;
+  return mean;
+}
+double luminanceOf(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+TraceLayers trace(const Scene& scene, const TraceSettings& settings) {
+  PathTracer tracer(scene, {}, settings);
+  EXPECT_TRUE(tracer.run({}));
+  EXPECT_EQ(tracer.statistics().overBound, 0u);
+  EXPECT_EQ(tracer.statistics().notFinite, 0u);
+  return tracer.layers();
+}
+
+Scene withoutAir() {
+  Scene scene;
+  scene.atmosphere.rayleigh = scene.atmosphere.mie = scene.atmosphere.ozone = 0.0f;
+  return scene;
+}
+
+// Hillaire's atmosphere without clouds: references.md section 5, by Monte Carlo with all orders, +-20e-6 per unit
+// irradiance.
+struct SkyCase {
+  const char* name;
+  double sunZenith, viewZenith, viewAzimuth;  // degrees; azimuth from the sun's
+  glm::dvec3 radiance;
+};
+class ClearSky : public testing::TestWithParam<SkyCase> {};
+
+TEST_P(ClearSky, HasThePublishedRadiance) {
+  const SkyCase& c = GetParam();
+  Scene scene;
+  scene.layers.clear();
+  scene.atmosphere.coefficients = AirCoefficients::hillaire;
+  scene.ground.albedo = glm::vec3(0.0f);
+  scene.sun.elevation = static_cast<float>((90.0 - c.sunZenith) * kDegree);
+  scene.sun.azimuth = 0.0f;
+  scene.camera.position = {0.0, 0.0, 200.0};
+  scene.camera.heading = static_cast<float>(c.viewAzimuth * kDegree);
+  scene.camera.pitch = static_cast<float>((90.0 - c.viewZenith) * kDegree);
+  scene.camera.fov = static_cast<float>(1.0 * kDegree);
+  const TraceLayers layers = trace(scene, {.width = 32, .height = 32, .samples = 256, .sunDisc = SunDisc::leftOut});
+  const Mean mean = meanOf(layers);
+  const glm::dvec3 found = mean.value / glm::dvec3(kSunIrradiance);
+  const double ours = luminanceOf(found), theirs = luminanceOf(c.radiance);
+  // The irradiance's colour is near white, so its relative standard error is that of the luminance.
+  const double share = mean.error / luminanceOf(mean.value);
+  EXPECT_LT(share, 0.02);
+  // Four standard errors, theirs, and what the transmittance table is off (3e-3).
+  EXPECT_NEAR(ours, theirs, 4.0 * share * theirs + 20e-6 + 3e-3 * theirs) << ours << " " << theirs;
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(found[i], c.radiance[i], 6.0 * share * c.radiance[i] + 20e-6 + 3e-3 * c.radiance[i]) << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(References, ClearSky,
+                         testing::Values(SkyCase{"zenith", 60, 0, 0, {.003471, .007653, .018794}},
+                                         SkyCase{"toward", 60, 60, 0, {.039695, .047139, .067893}},
+                                         SkyCase{"across", 60, 60, 90, {.005855, .012916, .030748}},
+                                         SkyCase{"away", 60, 60, 180, {.006739, .014815, .034388}},
+                                         SkyCase{"low", 85, 85, 90, {.017915, .021637, .020577}}),
+                         [](const auto& one) { return one.param.name; });
+
+// A white furnace: droplets and a ground that absorb nothing under a sky of the same radiance everywhere.
+TEST(PathTracer, InUniformLightNothingIsSeen) {
+  Scene scene = withoutAir();
+  scene.atmosphere.model = SkyKind::gradient;
+  scene.atmosphere.gradientHorizon = scene.atmosphere.gradientZenith = glm::vec3(2.0f);
+  scene.atmosphere.gradientGlow = glm::vec3(0.0f);
+  scene.sun.elevation = static_cast<float>(-60.0 * kDegree);
+  scene.ground.albedo = glm::vec3(1.0f);
+  const TraceLayers layers = trace(scene, {.width = 32, .height = 18, .samples = 64, .clouds = kCoarse});
+  const Mean mean = meanOf(layers);
+  double clear = 0.0;
+  for (const float t : layers.transmittance.pixels) clear += t / (32.0 * 18.0);
+  EXPECT_LT(clear, 0.9);  // there are clouds to be seen
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean.value[c], 2.0, 4.0 * mean.error + 1e-4);
+  EXPECT_LT(mean.error, 0.02);
+}
+
+// A cloud that scatters nothing is black.
+TEST(PathTracer, BlackCloudsSendNoLight) {
+  Scene scene = withoutAir();
+  scene.layers.front().cloud.albedo = 0.0f;
+  scene.ground.albedo = glm::vec3(0.0f);
+  const TraceLayers layers = trace(scene, {.width = 32, .height = 18, .samples = 16, .clouds = kCoarse});
+  for (std::size_t i = 0; i < layers.variance.pixels.size(); ++i)
+    if (layers.transmittance.pixels[i] == 0.0f) {
+      EXPECT_EQ(layers.radiance.pixels[3 * i], 0.0f);
+    }
+}
+
+// Delta tracking against quadrature along the same rays.
+TEST(PathTracer, TransmittanceIsTheIntegralOfExtinction) {
+  Scene scene = withoutAir();
+  scene.camera.position = {0.0, 0.0, 150.0};
+  scene.camera.pitch = static_cast<float>(25.0 * kDegree);
+  const int w = 48, h = 27;
+  const TraceLayers layers = trace(scene, {.width = w, .height = h, .samples = 256, .clouds = kCoarse});
+  const CloudCache cache = bakeCloudCache({.layers = scene.layers,
+                                           .noise = scene.noise,
+                                           .drift = {scene.wind.speed, scene.wind.from, scene.time},
+                                           .seed = scene.seed},
+                                          {}, scene.camera.position, kCoarse);
+  const law::PlanetParams planet = planetParams(scene.camera.position);
+  const law::CameraParams camera = cameraParams(scene.camera, static_cast<double>(w) / h);
+  double ours = 0.0, exact = 0.0;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) {
+      ours += *layers.transmittance.at(x, y);
+      constexpr int kGrid = 3;  // rays a pixel
+      for (int s = 0; s < kGrid * kGrid; ++s) {
+        const glm::vec2 at(static_cast<float>(x) + (static_cast<float>(s % kGrid) + 0.5f) / kGrid,
+                           static_cast<float>(y) + (static_cast<float>(s / kGrid) + 0.5f) / kGrid);
+        const glm::vec3 ray = glm::normalize(
+            law::cameraRay(glm::vec2(2.0f * at.x / w - 1.0f, 1.0f - 2.0f * at.y / h), camera));
+        const float step = 12.0f;
+        double tau = 0.0;
+        const float enter = law::crossings(ray, cache.majorants.bottom, planet).y;
+        const float leave = law::crossings(ray, cache.majorants.top, planet).y;
+        for (float t = enter + 0.5f * step; t < leave && tau < 20.0; t += step)
+          tau += step * extinctionIn(cache, law::cloudSpace(ray * t, planet));
+        exact += std::exp(-tau) / (kGrid * kGrid);
+      }
+    }
+  // Binomial noise of 256 paths, and of 9 rays a pixel against all of it: both below .01 of a pixel at random, and
+  // there are 1296.
+  EXPECT_GT(exact, 200.0);
+  EXPECT_LT(exact, 1200.0);
+  EXPECT_NEAR(ours, exact, 5.0);
+}
+
+// A picture that was interrupted, saved, and taken up again is the picture that was not.
+TEST(PathTracer, GoesOnFromAStateToTheSamePicture) {
+  Scene scene;
+  const TraceSettings settings{.width = 48,
+                               .height = 32,
+                               .samples = 96,
+                               .noise = 0.4,
+                               .air = AirModel::tables,
+                               .clouds = kCoarse};
+  const TraceLayers whole = trace(scene, settings);
+  PathTracer first(scene, {}, settings);
+  int calls = 0;
+  EXPECT_FALSE(first.run([&](double done) {
+    EXPECT_GE(done, 0.0);
+    EXPECT_LE(done, 1.0);
+    return ++calls < 2;
+  }));
+  const std::vector<std::byte> state = first.state();
+  PathTracer second(scene, {}, settings);
+  second.restore(state);
+  EXPECT_TRUE(second.run({}));
+  EXPECT_EQ(second.layers().radiance.pixels, whole.radiance.pixels);
+  EXPECT_EQ(second.layers().samples.pixels, whole.samples.pixels);
+  float least = 1e9f, most = 0.0f;
+  for (const float n : whole.samples.pixels) least = std::min(least, n), most = std::max(most, n);
+  EXPECT_LT(least, most);  // it did adapt
+
+  std::vector<std::byte> cut = state;
+  cut.pop_back();
+  EXPECT_THROW(second.restore(cut), Error);
+  cut = state;
+  cut[0] = std::byte{0};
+  EXPECT_THROW(second.restore(cut), Error);
+  PathTracer other(scene, {}, {.width = 32, .height = 48, .clouds = kCoarse});
+  EXPECT_THROW(other.restore(state), Error);
+}
+
+// Roulette, branches and the order of layers: what was scattered once and the rest add up, with and without clouds.
+TEST(PathTracer, LayersAddUp) {
+  const TraceLayers layers = trace(Scene{}, {.width = 32, .height = 18, .samples = 8, .air = AirModel::tables, .clouds = kCoarse});
+  double direct = 0.0, multiple = 0.0;
+  for (std::size_t i = 0; i < layers.radiance.pixels.size(); ++i) {
+    EXPECT_NEAR(layers.direct.pixels[i] + layers.multiple.pixels[i], layers.radiance.pixels[i],
+                1e-4 * layers.radiance.pixels[i] + 1e-6);
+    direct += layers.direct.pixels[i];
+    multiple += layers.multiple.pixels[i];
+  }
+  EXPECT_GT(direct, 0.0);
+  EXPECT_GT(multiple, 0.0);
+}
+
+TEST(PathTracer, RefusesPicturesWithoutPixels) {
+  EXPECT_THROW(PathTracer(Scene{}, {}, {.width = 0, .height = 5}), Error);
+  EXPECT_THROW(PathTracer(Scene{}, {}, {.width = 5, .height = 5, .samples = 0}), Error);
+}
+
+}  // namespace
+}  // namespace welkin::trace
