@@ -114,19 +114,19 @@ Environment traceEnvironment(const Scene& source, const EnvironmentOptions& opti
   settings.sunDisc = trace::SunDisc::leftOut;
   settings.seconds /= static_cast<double>(cameras.size());
   const std::vector<Volume> maps = weatherMaps(scene);
+  const std::vector<PlacedGrid> grids = loadGrids(scene);
   Environment out{Image(pixels.width(), pixels.height(), 3), {}, {}};
   out.light.features = featuresOf(scene);
   for (std::size_t picture = 0; picture < cameras.size(); ++picture) {
     scene.camera = cameras[picture];
-    trace::PathTracer tracer(scene, maps, settings);
+    trace::PathTracer tracer(scene, {.weatherMaps = maps, .grids = grids}, settings);
     const double share = 1.0 / static_cast<double>(cameras.size());
-    const Progress stage = stageOf(options.progress, share * static_cast<double>(picture),
-                                   share * static_cast<double>(picture + 1));
+    const Progress stage =
+        stageOf(options.progress, share * static_cast<double>(picture), share * static_cast<double>(picture + 1));
     if (!tracer.run(stage)) throw Cancelled();
     const trace::TraceLayers layers = tracer.layers();
     const std::size_t first = picture * static_cast<std::size_t>(height);
-    std::copy(layers.radiance.pixels.begin(), layers.radiance.pixels.end(),
-              out.light.at(0, static_cast<int>(first)));
+    std::copy(layers.radiance.pixels.begin(), layers.radiance.pixels.end(), out.light.at(0, static_cast<int>(first)));
     for (SunPixel& p : disc) {
       const std::size_t row = p.index / static_cast<std::size_t>(width);
       if (row < first || row >= first + static_cast<std::size_t>(height)) continue;

@@ -11,6 +11,7 @@
 #include "welkin/base/error.hpp"
 #include "welkin/io/exr.hpp"
 #include "welkin/io/file.hpp"
+#include "welkin/io/grids.hpp"
 #include "welkin/scene/features.hpp"
 #include "welkin/scene/sections.hpp"
 
@@ -43,9 +44,9 @@ class InterruptGuard {
 // All that a picture depends on, as text.
 std::string identityOf(const Scene& source, std::span<const Volume> maps, const trace::TraceSettings& settings) {
   Scene scene = source;
-  std::string text = fmt::format("{} {} {}x{} {} {} {} {}", WELKIN_VERSION, trace::laneCount(), settings.width,
-                                 settings.height, settings.samples, settings.noise, static_cast<int>(settings.air),
-                                 static_cast<int>(settings.sunDisc));
+  std::string text =
+      fmt::format("{} {} {}x{} {} {} {} {}", WELKIN_VERSION, trace::laneCount(), settings.width, settings.height,
+                  settings.samples, settings.noise, static_cast<int>(settings.air), static_cast<int>(settings.sunDisc));
   for (const Section& section : sectionsOf(scene))
     for (const Field& field : section.fields)
       text += fmt::format("\n{}.{}={}", section.path, field.name, formatValue(field, field.get(section.object)));
@@ -117,7 +118,8 @@ void saveLayers(const std::string& output, const trace::TraceLayers& layers) {
 void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& options) {
   command
       .add_option_function<std::string>(
-          "--renderer", [&renderer](const std::string& name) { renderer = name == "path" ? Renderer::path : Renderer::realtime; },
+          "--renderer",
+          [&renderer](const std::string& name) { renderer = name == "path" ? Renderer::path : Renderer::realtime; },
           "realtime (OpenGL) or path (path-traced, the reference)")
       ->check(CLI::IsMember({"realtime", "path"}))
       ->type_name("NAME");
@@ -139,8 +141,9 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
 }
 
 void addStillOptions(CLI::App& command, TraceOptions& options) {
-  command.add_option("--checkpoint", options.checkpoint,
-                     "path: keep the state in this file every few seconds, and go on from it when it is there")
+  command
+      .add_option("--checkpoint", options.checkpoint,
+                  "path: keep the state in this file every few seconds, and go on from it when it is there")
       ->type_name("FILE");
   command.add_flag("--layers", options.layers,
                    "path: direct, multiple, transmittance, depth, samples and variance beside the picture, as .exr");
@@ -160,11 +163,13 @@ void traceToFile(const Scene& scene, const TraceOptions& options, const std::str
   const trace::TraceSettings settings = traceSettings(options);
   const InterruptGuard guard;
   const std::vector<Volume> maps = weatherMaps(scene);
-  trace::PathTracer tracer(scene, maps, settings);
+  const std::vector<PlacedGrid> grids = loadGrids(scene);
+  trace::PathTracer tracer(scene, {.weatherMaps = maps, .grids = grids}, settings);
   Checkpoint checkpoint(options.checkpoint, scene, maps, settings);
   checkpoint.restore(tracer);
-  const bool complete = tracer.run([&](double done) { return !interrupted && (!options.progress || options.progress(done)); },
-                                   [&] { checkpoint.save(tracer); });
+  const bool complete =
+      tracer.run([&](double done) { return !interrupted && (!options.progress || options.progress(done)); },
+                 [&] { checkpoint.save(tracer); });
   if (!complete) checkpoint.save(tracer);
   trace::TraceLayers layers = tracer.layers();
   layers.radiance.features = featuresOf(scene);
@@ -173,7 +178,8 @@ void traceToFile(const Scene& scene, const TraceOptions& options, const std::str
   if (complete) checkpoint.remove();
   const trace::KernelStatistics& s = tracer.statistics();
   if (s.overBound + s.notFinite > 0)
-    fmt::print(stderr, "{} of {} samples exceeded their bound and {} of {} paths were not finite; please report this sky\n",
+    fmt::print(stderr,
+               "{} of {} samples exceeded their bound and {} of {} paths were not finite; please report this sky\n",
                s.overBound, s.lookups, s.notFinite, s.paths);
   if (!complete) fmt::print(stderr, "interrupted: the picture so far was written to {}\n", output);
 }

@@ -89,8 +89,8 @@ INSTANTIATE_TEST_SUITE_P(Skies, CloudCaches, testing::Values(0, 1, 2, 3));
 TEST(CloudCache, IsTheFieldItself) {
   const std::vector<Layer> layers(1);
   const DensityParts parts{.layers = layers, .seed = 5};
-  const CloudCache cache = bakeCloudCache(parts, {}, {0.0, 0.0, 0.0}, {.weather = {.texels = 1024, .finest = 5000.0},
-                                                                       .cells = 32, .cellLayers = 24});
+  const CloudCache cache = bakeCloudCache(
+      parts, {}, {0.0, 0.0, 0.0}, {.weather = {.texels = 1024, .finest = 5000.0}, .cells = 32, .cellLayers = 24});
   const DensityField field(parts);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit;

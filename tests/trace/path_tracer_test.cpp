@@ -139,8 +139,8 @@ TEST(PathTracer, TransmittanceIsTheIntegralOfExtinction) {
       for (int s = 0; s < kGrid * kGrid; ++s) {
         const glm::vec2 at(static_cast<float>(x) + (static_cast<float>(s % kGrid) + 0.5f) / kGrid,
                            static_cast<float>(y) + (static_cast<float>(s / kGrid) + 0.5f) / kGrid);
-        const glm::vec3 ray = glm::normalize(
-            law::cameraRay(glm::vec2(2.0f * at.x / w - 1.0f, 1.0f - 2.0f * at.y / h), camera));
+        const glm::vec3 ray =
+            glm::normalize(law::cameraRay(glm::vec2(2.0f * at.x / w - 1.0f, 1.0f - 2.0f * at.y / h), camera));
         const float step = 12.0f;
         double tau = 0.0;
         const float enter = law::crossings(ray, cache.majorants.bottom, planet).y;
@@ -157,15 +157,38 @@ TEST(PathTracer, TransmittanceIsTheIntegralOfExtinction) {
   EXPECT_NEAR(ours, exact, 5.0);
 }
 
+// A cube of constant extinction, turned and placed: Beer-Lambert along its axis; and half of a picture that it fills.
+TEST(PathTracer, SeesThroughGrids) {
+  VoxelGrid voxels({24, 24, 24}, {0.0, 0.0, 0.0}, {10.0, 10.0, 10.0});
+  for (int z = 0; z < 24; ++z)
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 24; ++x) voxels.set({x, y, z}, 0.5f);
+  Scene scene = withoutAir();
+  scene.layers.clear();
+  scene.grids.push_back({.file = "cube", .position = {500.0, 3000.0, 900.0}, .extinction = 0.02f});
+  const PlacedGrid grid = placed(scene.grids.front(), std::make_shared<VoxelGrid>(voxels));
+  scene.camera.position = {620.0, 100.0, 1020.0};  // looks north at the middle of the cube's south face
+  scene.camera.heading = scene.camera.pitch = 0.0f;
+  scene.camera.fov = static_cast<float>(1.0 * kDegree);
+  const auto clearOf = [&] {
+    PathTracer tracer(scene, {.grids = std::span(&grid, 1)}, {.width = 32, .height = 32, .samples = 64});
+    EXPECT_TRUE(tracer.run({}));
+    EXPECT_EQ(tracer.statistics().overBound, 0u);
+    double clear = 0.0;
+    for (const float t : tracer.layers().transmittance.pixels) clear += t / (32.0 * 32.0);
+    return clear;
+  };
+  // tau = .01 x 240; 65536 binomial samples.
+  EXPECT_NEAR(clearOf(), std::exp(-2.4), 4.0 * std::sqrt(0.09 * 0.91 / 65536.0));
+  scene.camera.position.x = 500.0;                             // along its western face
+  EXPECT_NEAR(clearOf(), 0.5 * (1.0 + std::exp(-2.4)), 0.02);  // the face is 0 to 4 degrees off: perspective
+}
+
 // A picture that was interrupted, saved, and taken up again is the picture that was not.
 TEST(PathTracer, GoesOnFromAStateToTheSamePicture) {
   Scene scene;
-  const TraceSettings settings{.width = 48,
-                               .height = 32,
-                               .samples = 96,
-                               .noise = 0.4,
-                               .air = AirModel::tables,
-                               .clouds = kCoarse};
+  const TraceSettings settings{
+      .width = 48, .height = 32, .samples = 96, .noise = 0.4, .air = AirModel::tables, .clouds = kCoarse};
   const TraceLayers whole = trace(scene, settings);
   PathTracer first(scene, {}, settings);
   int calls = 0;
@@ -196,7 +219,8 @@ TEST(PathTracer, GoesOnFromAStateToTheSamePicture) {
 
 // Roulette, branches and the order of layers: what was scattered once and the rest add up, with and without clouds.
 TEST(PathTracer, LayersAddUp) {
-  const TraceLayers layers = trace(Scene{}, {.width = 32, .height = 18, .samples = 8, .air = AirModel::tables, .clouds = kCoarse});
+  const TraceLayers layers =
+      trace(Scene{}, {.width = 32, .height = 18, .samples = 8, .air = AirModel::tables, .clouds = kCoarse});
   double direct = 0.0, multiple = 0.0;
   for (std::size_t i = 0; i < layers.radiance.pixels.size(); ++i) {
     EXPECT_NEAR(layers.direct.pixels[i] + layers.multiple.pixels[i], layers.radiance.pixels[i],

@@ -42,8 +42,9 @@ TexelBounds::TexelBounds(const TextureView& t, int channel, Kind kind) : kind_(k
               for (int j = 2 * y; j <= std::min(2 * y + 1, fine.height - 1); ++j)
                 for (int i = 2 * x; i <= std::min(2 * x + 1, fine.width - 1); ++i)
                   r = joined(r, fine.cells[(static_cast<std::size_t>(k) * fine.height + j) * fine.width + i]);
-            coarse.cells[(z * coarse.height + static_cast<std::size_t>(y)) * coarse.width +
-                         static_cast<std::size_t>(x)] = r;
+            coarse
+                .cells[(z * coarse.height + static_cast<std::size_t>(y)) * coarse.width + static_cast<std::size_t>(x)] =
+                r;
           }
     });
     mips_.push_back(std::move(coarse));

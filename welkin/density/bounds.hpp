@@ -18,8 +18,8 @@ class TexelBounds {
   enum class Kind { volume, planes };
   TexelBounds(const TextureView& texture, int channel, Kind kind);
 
-  // Of a linearly filtered lookup anywhere between `low` and `high`, in texels from the texture's corner (texel i covers
-  // [i, i + 1)). For planes z of both is the slice.
+  // Of a linearly filtered lookup anywhere between `low` and `high`, in texels from the texture's corner (texel i
+  // covers [i, i + 1)). For planes z of both is the slice.
   Interval between(const glm::vec3& low, const glm::vec3& high) const;
 
  private:

@@ -53,8 +53,8 @@ WeatherCache bakeWeatherLevels(std::span<const Layer> layers, const WeatherExten
       levelOf(clip, level) = clipLevel(extent, level, inAir - centre);
       // In still air, with the level's centre as anchor.
       const Volume baked =
-          bakeWeather(layers[i], centre, extent.edge(level), extent.texels,
-                      Drift{drift.windSpeed, drift.windFrom, 0.0}, seed, i < maps.size() ? &maps[i] : nullptr);
+          bakeWeather(layers[i], centre, extent.edge(level), extent.texels, Drift{drift.windSpeed, drift.windFrom, 0.0},
+                      seed, i < maps.size() ? &maps[i] : nullptr);
       const std::size_t start =
           2 * texels * (i * static_cast<std::size_t>(extent.levels) + static_cast<std::size_t>(level));
       for (std::size_t t = 0; t < texels; ++t)

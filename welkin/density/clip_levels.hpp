@@ -1,6 +1,6 @@
 #pragma once
-// Clip levels: the weather cached in nested squares round a place, each a slice of two texture stacks, those of all cloud
-// layers one after the other. The geometry serves every cache; WeatherCache holds one on the CPU.
+// Clip levels: the weather cached in nested squares round a place, each a slice of two texture stacks, those of all
+// cloud layers one after the other. The geometry serves every cache; WeatherCache holds one on the CPU.
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -31,8 +31,8 @@ law::ClipLevel& levelOf(law::ClipParams& clip, int level);
 const law::ClipLevel& levelOf(const law::ClipParams& clip, int level);
 
 struct WeatherCache {
-  Volume main;   // texels^2 x (levels x layers), RG: (height or coverage, base shift or type)
-  Volume extra;  // RG: (anvil or precipitation, precipitation or base shift)
+  Volume main;                         // texels^2 x (levels x layers), RG: (height or coverage, base shift or type)
+  Volume extra;                        // RG: (anvil or precipitation, precipitation or base shift)
   std::vector<law::ClipParams> clips;  // one for each layer
   TextureView mainView() const;
   TextureView extraView() const;

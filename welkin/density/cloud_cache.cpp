@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
 #include "welkin/density/bounds.hpp"
 
@@ -12,7 +13,7 @@ namespace welkin {
 namespace {
 
 constexpr int kWeatherRows = 8;  // cell layers that share one look at the weather
-constexpr float kSlack = 2.0f;  // m, of altitude: what rays straightened within a cell and float rounding may be off
+constexpr float kSlack = 2.0f;   // m, of altitude: what rays straightened within a cell and float rounding may be off
 
 // A box of cloud space relative to the anchor.
 struct Box {
@@ -54,7 +55,7 @@ class LayerBounds {
       const float slice = clip_.firstSlice + static_cast<float>(level);
       const glm::vec3 from(uvLow * static_cast<float>(texels_), slice), to(uvHigh * static_cast<float>(texels_), slice);
       const WeatherInterval here{a_.between(from, to), b_.between(from, to), extraA_.between(from, to),
-                              extraB_.between(from, to)};
+                                 extraB_.between(from, to)};
       found = any ? join(found, here) : here;
       any = true;
       if (uvLow.x > inner && uvLow.y > inner && uvHigh.x < 1 - inner && uvHigh.y < 1 - inner) break;
@@ -150,23 +151,25 @@ class LayerBounds {
   std::unique_ptr<TexelBounds> lift_;
 };
 
-// Adds a layer's bounds to those of a column of cells.
-void addColumn(const LayerBounds& layer, const MajorantLevel& level, std::size_t column, std::vector<float>& sums) {
+// The box of cells `from` to `to` of a column, a little enlarged.
+Box boxOf(const MajorantLevel& level, std::size_t column, int from, int to) {
   const glm::vec2 corner(static_cast<float>(column % static_cast<std::size_t>(level.n)),
                          static_cast<float>(column / static_cast<std::size_t>(level.n)));
   // Rounding of a sample's place against its cell, and the least step of a ray.
   const float loose = std::max(1e-6f * level.cell * static_cast<float>(level.n), 0.3f);
   const glm::vec2 low = glm::vec2(level.origin) + corner * level.cell;
-  const auto boxOf = [&](int from, int to) {
-    const float z = level.origin.z + static_cast<float>(from) * level.height;
-    return Box{{low - loose, z - kSlack},
-               {low + level.cell + loose, z + static_cast<float>(to - from) * level.height + kSlack}};
-  };
+  const float z = level.origin.z + static_cast<float>(from) * level.height;
+  return {{low - loose, z - kSlack},
+          {low + level.cell + loose, z + static_cast<float>(to - from) * level.height + kSlack}};
+}
+
+// Adds a layer's bounds to those of a column of cells.
+void addColumn(const LayerBounds& layer, const MajorantLevel& level, std::size_t column, std::vector<float>& sums) {
   for (int first = 0; first < level.layers; first += kWeatherRows) {
     const int end = std::min(first + kWeatherRows, level.layers);
-    const WeatherInterval weather = layer.weatherIn(layer.unsheared(boxOf(first, end)));
+    const WeatherInterval weather = layer.weatherIn(layer.unsheared(boxOf(level, column, first, end)));
     for (int k = first; k < end; ++k)
-      sums[static_cast<std::size_t>(k)] += layer.extinctionIn(layer.unsheared(boxOf(k, k + 1)), weather);
+      sums[static_cast<std::size_t>(k)] += layer.extinctionIn(layer.unsheared(boxOf(level, column, k, k + 1)), weather);
   }
 }
 
@@ -202,9 +205,87 @@ void markEmptiness(const MajorantLevel& level, float* bounds) {
   pass(-1);
 }
 
-Majorants bakeMajorants(const CloudCache& cache, const CloudCacheExtent& extent) {
+// Bounds of a grid's extinction over boxes of cloud space, from those of its bricks.
+class GridBounds {
+ public:
+  explicit GridBounds(const CachedGrid& grid) : grid_(grid), maxima_(brickMaxima(*grid.voxels)) {}
+
+  float extinctionIn(const Box& box) const {
+    glm::vec3 low(INFINITY), high(-INFINITY);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::vec4 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                        corner & 4 ? box.high.z : box.low.z, 1.0f);
+      const glm::vec3 v(glm::dot(grid_.rows[0], p), glm::dot(grid_.rows[1], p), glm::dot(grid_.rows[2], p));
+      low = glm::min(low, v);
+      high = glm::max(high, v);
+    }
+    // From centres to corners of voxels; a hundredth of one for rounding.
+    const glm::vec3 bricks(grid_.voxels->brickDims());
+    const glm::vec3 from = glm::floor((low + 0.49f) / float(VoxelGrid::kBrick));
+    const glm::vec3 to = glm::floor((high + 0.51f) / float(VoxelGrid::kBrick));
+    for (int c = 0; c < 3; ++c)
+      if (to[c] < 0.0f || from[c] >= bricks[c]) return 0.0f;
+    const glm::ivec3 first(glm::max(from, 0.0f)), last(glm::min(to, bricks - 1.0f));
+    const glm::ivec3& n = grid_.voxels->brickDims();
+    float most = 0.0f;
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x)
+          most = std::max(most, maxima_[(static_cast<std::size_t>(z) * n.y + static_cast<std::size_t>(y)) * n.x +
+                                        static_cast<std::size_t>(x)]);
+    return grid_.extinction * most;
+  }
+
+ private:
+  const CachedGrid& grid_;
+  std::vector<float> maxima_;
+};
+
+CachedGrid cachedGrid(const PlacedGrid& grid, const glm::dvec3& anchor) {
+  if (grid.voxels->values().size() > std::size_t{1} << 31)
+    throw Error(ErrorKind::badInput, "", "a grid of more than 2^31 voxels in use is too large to trace; split it");
+  CachedGrid cached{grid.voxels, {}, grid.extinction};
+  const glm::dvec3 ground(anchor.x, anchor.y, 0.0);  // altitude is absolute
+  for (int row = 0; row < 3; ++row) {
+    glm::dvec4 r(grid.fromWorld[0][row], grid.fromWorld[1][row], grid.fromWorld[2][row], grid.fromWorld[3][row]);
+    r.w += glm::dot(glm::dvec3(r), ground) - grid.voxels->origin()[row];
+    r /= grid.voxels->voxel()[row];
+    r.w -= 0.5;
+    cached.rows[row] = glm::vec4(r);
+  }
+  return cached;
+}
+
+// Where the levels stand and how many there are: round the anchor as far as the weather is known, or, where grids are
+// all there is, round those.
+void placeLevels(Majorants& m, const CloudCache& cache, const WorldBox& grids, const CloudCacheExtent& extent) {
+  double cell = extent.finestCell, reach = 0.5 * extent.weather.edge(extent.weather.levels - 1);
+  if (cache.layers.empty()) {
+    m.centre = glm::vec2(0.5 * (grids.low + grids.high));
+    reach = 1.0 + 0.5 * std::max(grids.high.x - grids.low.x, grids.high.y - grids.low.y);
+    cell = 2.0 * reach / extent.cells;
+  } else if (!cache.grids.empty()) {
+    for (const double edge : {grids.low.x, grids.low.y, grids.high.x, grids.high.y})
+      reach = std::max(reach, std::abs(edge));
+  }
+  const std::size_t plane = static_cast<std::size_t>(extent.cells) * extent.cells;
+  for (;; cell *= 2.0) {
+    MajorantLevel level;
+    level.cell = static_cast<float>(cell);
+    level.n = extent.cells;
+    level.layers = extent.cellLayers;
+    level.height = (m.top - m.bottom) / static_cast<float>(level.layers);
+    level.origin = glm::vec3(m.centre - 0.5f * level.cell * static_cast<float>(level.n), m.bottom);
+    level.offset = m.bounds.size();
+    m.bounds.resize(level.offset + plane * static_cast<std::size_t>(level.layers));
+    m.levels.push_back(level);
+    if (0.5 * cell * extent.cells >= reach * 0.999) break;
+  }
+}
+
+Majorants bakeMajorants(const CloudCache& cache, const WorldBox& gridBox, const CloudCacheExtent& extent) {
   Majorants m;
-  if (cache.layers.empty()) return m;
+  if (cache.layers.empty() && cache.grids.empty()) return m;
   m.bottom = INFINITY, m.top = -INFINITY;
   std::vector<LayerBounds> layers;
   for (std::size_t i = 0; i < cache.layers.size(); ++i) {
@@ -214,32 +295,30 @@ Majorants bakeMajorants(const CloudCache& cache, const CloudCacheExtent& extent)
     layers.emplace_back(layer, cache.weather.clips[i], cache.weather,
                         (layer.shape == 0 ? cache.noise.profileBase : cache.noise.nubisBase).view());
   }
+  std::vector<GridBounds> grids;
+  for (const CachedGrid& grid : cache.grids) grids.emplace_back(grid);
+  if (!grids.empty()) {
+    m.bottom = std::min(m.bottom, static_cast<float>(gridBox.low.z));
+    m.top = std::max(m.top, static_cast<float>(gridBox.high.z));
+  }
   m.bottom -= kSlack;
   m.top += kSlack;
-  const double reach = 0.5 * extent.weather.edge(extent.weather.levels - 1);  // beyond, the weather is not known
-  const std::size_t plane = static_cast<std::size_t>(extent.cells) * extent.cells;
-  for (double cell = extent.finestCell;; cell *= 2.0) {
-    MajorantLevel level;
-    level.cell = static_cast<float>(cell);
-    level.n = extent.cells;
-    level.layers = extent.cellLayers;
-    level.height = (m.top - m.bottom) / static_cast<float>(level.layers);
-    level.origin = glm::vec3(glm::vec2(-0.5f * level.cell * static_cast<float>(level.n)), m.bottom);
-    level.offset = m.bounds.size();
-    m.bounds.resize(level.offset + plane * static_cast<std::size_t>(level.layers));
-    m.levels.push_back(level);
-    if (0.5 * cell * extent.cells >= reach) break;
-  }
-  for (const MajorantLevel& level : m.levels)
+  placeLevels(m, cache, gridBox, extent);
+  for (const MajorantLevel& level : m.levels) {
+    const std::size_t plane = static_cast<std::size_t>(level.n) * level.n;
     parallelFor(plane, 16, [&](std::size_t begin, std::size_t end) {
       std::vector<float> sums(static_cast<std::size_t>(level.layers));
       for (std::size_t at = begin; at < end; ++at) {
         std::fill(sums.begin(), sums.end(), 0.0f);
         for (const LayerBounds& layer : layers) addColumn(layer, level, at, sums);
+        for (const GridBounds& grid : grids)
+          for (int k = 0; k < level.layers; ++k)
+            sums[static_cast<std::size_t>(k)] += grid.extinctionIn(boxOf(level, at, k, k + 1));
         for (std::size_t k = 0; k < sums.size(); ++k)
           m.bounds[level.offset + k * plane + at] = sums[k] * 1.0001f;  // rounding
       }
     });
+  }
   parallelFor(m.levels.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) markEmptiness(m.levels[i], m.bounds.data() + m.levels[i].offset);
   });
@@ -256,9 +335,17 @@ CloudCache bakeCloudCache(const DensityParts& parts, const DensityTextures& text
   for (const Sheet& sheet : parts.sheets)
     cache.sheets.push_back(sheetParams(sheet, glm::dvec2(anchor), parts.drift.time, parts.seed));
   if (!parts.layers.empty())
-    cache.weather = bakeWeatherLevels(parts.layers, extent.weather, glm::dvec2(anchor), parts.drift, parts.seed,
-                                      parts.weatherMaps);
-  cache.majorants = bakeMajorants(cache, extent);
+    cache.weather =
+        bakeWeatherLevels(parts.layers, extent.weather, glm::dvec2(anchor), parts.drift, parts.seed, parts.weatherMaps);
+  WorldBox box{glm::dvec3(1e300), glm::dvec3(-1e300)};
+  for (const PlacedGrid& grid : parts.grids) {
+    cache.grids.push_back(cachedGrid(grid, anchor));
+    const WorldBox b = boundsOf(grid);
+    const glm::dvec3 ground(anchor.x, anchor.y, 0.0);
+    box.low = glm::min(box.low, b.low - ground);
+    box.high = glm::max(box.high, b.high - ground);
+  }
+  cache.majorants = bakeMajorants(cache, box, extent);
   return cache;
 }
 
@@ -268,12 +355,17 @@ float extinctionIn(const CloudCache& cache, const glm::vec3& point) {
     const law::LayerParams& c = cache.layers[i];
     const WeatherCache& w = cache.weather;
     const DensityTextures& t = cache.noise;
-    sum += (c.shape == 0
-                ? law::profileExtinction(point, 0.0f, 0.0f, c, w.clips[i], w.mainView(), w.extraView(),
-                                         t.profileBase.view(), t.profileDetail.view(), t.profileWarp.view())
-                : law::nubisExtinction(point, true, 0.0f, c, w.clips[i], w.mainView(), w.extraView(),
-                                       t.nubisBase.view(), t.nubisDetail.view(), t.curl.view()))
+    sum += (c.shape == 0 ? law::profileExtinction(point, 0.0f, 0.0f, c, w.clips[i], w.mainView(), w.extraView(),
+                                                  t.profileBase.view(), t.profileDetail.view(), t.profileWarp.view())
+                         : law::nubisExtinction(point, true, 0.0f, c, w.clips[i], w.mainView(), w.extraView(),
+                                                t.nubisBase.view(), t.nubisDetail.view(), t.curl.view()))
                .x;
+  }
+  for (const CachedGrid& grid : cache.grids) {
+    const glm::vec4 p(point, 1.0f);
+    const VoxelGrid& v = *grid.voxels;
+    const glm::dvec3 voxel(glm::dot(grid.rows[0], p), glm::dot(grid.rows[1], p), glm::dot(grid.rows[2], p));
+    sum += grid.extinction * v.interpolate(v.origin() + (voxel + 0.5) * v.voxel());
   }
   return sum;
 }
@@ -282,10 +374,10 @@ float majorantAt(const Majorants& m, const glm::vec3& point) {
   for (const MajorantLevel& level : m.levels) {
     const glm::ivec3 i(glm::floor((point - level.origin) / glm::vec3(level.cell, level.cell, level.height)));
     if (i.x < 0 || i.y < 0 || i.z < 0 || i.x >= level.n || i.y >= level.n || i.z >= level.layers) continue;
-    return std::max(m.bounds[level.offset +
-                             (static_cast<std::size_t>(i.z) * level.n + static_cast<std::size_t>(i.y)) * level.n +
-                             static_cast<std::size_t>(i.x)],
-                    0.0f);
+    return std::max(
+        m.bounds[level.offset + (static_cast<std::size_t>(i.z) * level.n + static_cast<std::size_t>(i.y)) * level.n +
+                 static_cast<std::size_t>(i.x)],
+        0.0f);
   }
   return 0.0f;
 }

@@ -2,6 +2,7 @@
 // The clouds round a place, ready to be asked for millions of samples: parameters, cached weather and noise, and bounds
 // of the extinction by which a path skips empty air. Positions are relative to the cache's anchor.
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "welkin/density/clip_levels.hpp"
@@ -19,17 +20,26 @@ struct MajorantLevel {
   std::size_t offset = 0;
 };
 
-// Upper bounds of the extinction (1/m) of all layers together, in nested squares round the anchor, finest first. Outside
-// them there is no cloud.
+// Upper bounds of the extinction (1/m) of all layers and grids together, in nested squares round a centre, finest
+// first, each twice as wide as the one before. Outside them there is no cloud.
 struct Majorants {
+  glm::vec2 centre{0.0f};           // the anchor, or the middle of the grids where there is nothing else
   float bottom = 0.0f, top = 0.0f;  // altitudes that hold all cloud, m
   std::vector<MajorantLevel> levels;
   std::vector<float> bounds;
 };
 
+// A grid seen from the anchor: voxel coordinates (0 at the first voxel's centre) are rows * (point, 1).
+struct CachedGrid {
+  std::shared_ptr<const VoxelGrid> voxels;
+  glm::vec4 rows[3];
+  float extinction = 1.0f;  // 1/m, of the value 1
+};
+
 struct CloudCache {
   std::vector<law::LayerParams> layers;
   std::vector<law::SheetParams> sheets;
+  std::vector<CachedGrid> grids;
   WeatherCache weather;
   DensityTextures noise;
   Majorants majorants;

@@ -85,7 +85,8 @@ DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures t
   const NoiseSettings& n = parts.noise;
   if (uses(LayerShape::profile)) {
     // One base texture serves all layers, mixed as the first one asks.
-    make(textures.profileBase, [&] { return bakeProfileBasePacked(n.profile, parts.layers.front().profile.billowMix); });
+    make(textures.profileBase,
+         [&] { return bakeProfileBasePacked(n.profile, parts.layers.front().profile.billowMix); });
     make(textures.profileDetail, [&] { return bakeProfileDetail(n.profile); });
     make(textures.profileWarp, [&] { return bakeProfileWarp(n.profile); });
   }

@@ -30,8 +30,8 @@ struct DensityTextures {
   Volume profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl;
 };
 
-// The noise that the shapes of these layers need, as half floats hold it; what `given` has already is kept. Throws Error
-// (badInput) for settings out of range.
+// The noise that the shapes of these layers need, as half floats hold it; what `given` has already is kept. Throws
+// Error (badInput) for settings out of range.
 DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures given);
 
 // A layer's cloud over one place.

@@ -22,19 +22,20 @@ namespace welkin::trace::HWY_NAMESPACE {
 
 namespace target = ::welkin::HWY_NAMESPACE;
 namespace law = ::welkin::HWY_NAMESPACE::law;
-using law::Int, law::Mask, law::Real, law::Uint, law::Vec2, law::Vec3, law::Vec4;
 using law::both, law::either, law::invert, law::noneOf, law::select;
+using law::Int, law::Mask, law::Real, law::Uint, law::Vec2, law::Vec3, law::Vec4;
 using target::Random, target::next, target::PhaseSample;
 
 constexpr float kPi = 3.14159265f;
-constexpr float kNever = 1e12f;       // m
-constexpr float kLongStep = 3500.0f;  // m: straight air rises 1 m above its tangent over this way, half of what slabs allow
-constexpr int kStrides = 6;           // pieces of empty air before the density is asked again
+constexpr float kNever = 1e12f;  // m
+constexpr float kLongStep =
+    3500.0f;                 // m: straight air rises 1 m above its tangent over this way, half of what slabs allow
+constexpr int kStrides = 6;  // pieces of empty air before the density is asked again
 constexpr int kFreeScatterings = 128;  // before roulette begins where the throughput does not fall
 constexpr int kMostScatterings = 1 << 20;
 constexpr int kMostLevels = 4;  // of branches of branches
-// Chance of a branch: kBranching times the phase function toward the sun, summed over channels, within limits; by measured
-// efficiency.
+// Chance of a branch: kBranching times the phase function toward the sun, summed over channels, within limits; by
+// measured efficiency.
 constexpr float kBranching = 1.0f, kLeastBranching = 0.05f, kMostBranching = 0.5f;
 
 HWY_INLINE Mask andNot(Mask a, Mask b) { return both(a, invert(b)); }
@@ -68,11 +69,12 @@ class Paths {
   Paths(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels)
       : s_(scene), job_(job), pixels_(pixels), m_(scene.clouds->majorants),
         planet_(std::bit_cast<law::PlanetParams>(scene.planet)), air_(std::bit_cast<law::AtmosphereParams>(scene.air)),
-        camera_(std::bit_cast<law::CameraParams>(scene.camera)), total_(static_cast<std::size_t>(job.width) * job.height * job.samples) {
+        camera_(std::bit_cast<law::CameraParams>(scene.camera)),
+        total_(static_cast<std::size_t>(job.width) * job.height * job.samples) {
     for (const auto& l : scene.clouds->layers) layers_.push_back(std::bit_cast<law::LayerParams>(l));
     for (const auto& c : scene.clouds->weather.clips) clips_.push_back(std::bit_cast<law::ClipParams>(c));
     for (const auto& h : scene.clouds->sheets) sheets_.push_back(std::bit_cast<law::SheetParams>(h));
-    cloudTop_ = layers_.empty() ? -1.0f : m_.top;
+    cloudTop_ = m_.levels.empty() ? -1.0f : m_.top;
     for (const auto& h : sheets_) cloudTop_ = std::max(cloudTop_, h.height + kSheetThickness + 2.0f);
     pathTop_ = scene.airScatters ? air_.thickness : cloudTop_;
     sun_ = Vec3(air_.sunDirection.x, air_.sunDirection.y, air_.sunDirection.z);
@@ -136,8 +138,8 @@ class Paths {
       const int py = job_.y + static_cast<int>(p / static_cast<std::size_t>(job_.width));
       x[i] = static_cast<float>(px);
       y[i] = static_cast<float>(py);
-      pixel[i] = static_cast<std::uint32_t>(py) * static_cast<std::uint32_t>(job_.imageWidth) +
-                 static_cast<std::uint32_t>(px);
+      pixel[i] =
+          static_cast<std::uint32_t>(py) * static_cast<std::uint32_t>(job_.imageWidth) + static_cast<std::uint32_t>(px);
       sample[i] = static_cast<std::uint32_t>(job_.firstSample) + static_cast<std::uint32_t>(issued_ % count);
       at[i] = static_cast<std::uint32_t>(p);
       ++issued_;
@@ -182,13 +184,13 @@ class Paths {
     const Vec3 fromCentre = Vec3(vec4(planet_.up)) * planet_.up.w + place_;
     const Real b = law::dot(fromCentre, way), c = altitude * (2.0f * planet_.radius + altitude);
     const Real disc = b * b - c;
-    const Mask down = both(b < 0.0f, disc > 0.0f);
+    const Mask down = both(b<0.0f, disc> 0.0f);
     const Real ground = law::max(c / law::max(law::sqrt(law::max(disc, 0.0f)) - b, 1e-3f), 0.0f);
     end_ = select(lanes, select(down, ground, Real(kNever)), end_);
     const float top = std::max(pathTop_, 1.0f);
     const Real cTop = (altitude - top) * (2.0f * planet_.radius + altitude + top);
     const Real discTop = b * b - cTop;
-    const Mask outside = altitude > top, enters = both(outside, both(b < 0.0f, discTop > 0.0f));
+    const Mask outside = altitude > top, enters = both(outside, both(b<0.0f, discTop> 0.0f));
     const Real entry = cTop / law::max(law::sqrt(law::max(discTop, 0.0f)) - b, 1e-3f);
     t_ = select(lanes, select(enters, entry, Real(0.0f)), t_);
     draw(lanes);
@@ -212,7 +214,6 @@ class Paths {
     const std::size_t few = law::laneCount() / 4;
     for (int i = 0; i < kStrides; ++i) {
       stride(moving, candidate);
-      ++statistics_.strides;
       if (countOf(moving) <= few) break;
     }
     return candidate;
@@ -242,7 +243,7 @@ class Paths {
       return inside;
     };
     Real cloud = 0.0f;
-    if (!layers_.empty()) {
+    if (!m_.levels.empty()) {
       const Mask inside = meet(m_.bottom, m_.top);
       if (!noneOf(both(inside, moving))) cloud = select(inside, cellBound(p, h, rise, inverse, reach), cloud);
     }
@@ -276,7 +277,8 @@ class Paths {
   Real cellBound(Vec3 p, Real h, Real rise, Real inverseRise, Real& reach) {
     // The finest level that holds p: each is twice as wide as the one before.
     const MajorantLevel& first = m_.levels.front();
-    const Real far = law::max(law::abs(p.x), law::abs(p.y)) * (-1.0f / first.origin.x);
+    const Real px = p.x - m_.centre.x, py = p.y - m_.centre.y;
+    const Real far = law::max(law::abs(px), law::abs(py)) * (1.0f / (m_.centre.x - first.origin.x));
     const Int exponent = Int(law::hn::ShiftRight<23>(law::hn::BitCast(law::DI(), far.v))) - Int(126);
     const Int k = law::max(exponent, Int(0));
     const Mask known = k < Int(static_cast<std::int32_t>(m_.levels.size()));
@@ -287,7 +289,7 @@ class Paths {
     const Real cell = first.cell * powerOfTwo(level), inverseCell = (1.0f / first.cell) * powerOfTwo(-level);
     const Int offset = level * Int(static_cast<std::int32_t>(first.n * first.n * first.layers));
     const float half = 0.5f * static_cast<float>(first.n);
-    const Real x = law::floor(p.x * inverseCell), y = law::floor(p.y * inverseCell);
+    const Real x = law::floor(px * inverseCell), y = law::floor(py * inverseCell);
     const Real z = law::clamp(law::floor((h - first.origin.z) * (1.0f / first.height)), Real(0.0f),
                               Real(static_cast<float>(first.layers - 1)));
     const auto index = [&](Real c) {
@@ -300,17 +302,51 @@ class Paths {
     const auto exit = [&](Real at, Real i, Real way, Real inverse) {
       return select(way > 0.0f, (i + 1.0f + free) * cell - at, at - (i - free) * cell) * inverse;
     };
-    Real out = law::min(exit(p.x, x, way_.x, inverseX_), exit(p.y, y, way_.y, inverseY_));
+    Real out = law::min(exit(px, x, way_.x, inverseX_), exit(py, y, way_.y, inverseY_));
     const Real low = first.origin.z + (z - free) * first.height;
     const Real high = first.origin.z + (z + 1.0f + free) * first.height;
     out = law::min(out, select(rise > 0.0f, high - h, h - low) * inverseRise);
-    reach = select(known, law::min(reach, out), reach);
+    // Outside all levels, no further than the nearest of them can be.
+    const MajorantLevel& widest = m_.levels.back();
+    const Real away = law::max(law::abs(px), law::abs(py)) - (m_.centre.x - widest.origin.x);
+    reach = law::min(reach, select(known, out, law::max(away, 0.25f)));
     return select(known, law::max(bound, 0.0f), Real(0.0f));
   }
 
+  // The value of one of the eight voxels round a point, chosen with the weights of linear filtering: tracking asks for
+  // an extinction whose mean is right, and this one costs an eighth of the fetches.
+  Real gridExtinction(const CachedGrid& grid, Vec3 q, Mask lanes) {
+    const VoxelGrid& v = *grid.voxels;
+    const auto row = [&](int i) {
+      const glm::vec4& r = grid.rows[i];
+      return q.x * r.x + q.y * r.y + q.z * r.z + r.w;
+    };
+    const Real x = row(0), y = row(1), z = row(2);
+    const auto within = [](Real a, int n) { return both(a > -0.5f, a < static_cast<float>(n) - 0.5f); };
+    const glm::ivec3 n = v.dims();
+    const Mask inside = both(lanes, both(within(x, n.x), both(within(y, n.y), within(z, n.z))));
+    if (noneOf(inside)) return Real(0.0f);
+    const auto pick = [&](Real a, int count) {
+      const Real i = law::floor(law::clamp(a, Real(0.0f), Real(static_cast<float>(count - 1))) + next(random_, inside));
+      return law::toInt(law::clamp(i, Real(0.0f), Real(static_cast<float>(count - 1))));
+    };
+    const Int ix = pick(x, n.x), iy = pick(y, n.y), iz = pick(z, n.z);
+    const auto high = [](Int a) { return Int(law::hn::ShiftRight<3>(a.v)); };
+    const Int low(VoxelGrid::kBrick - 1);
+    const glm::ivec3 bricks = v.brickDims();
+    const Int slot = (high(iz) * Int(bricks.y) + high(iy)) * Int(bricks.x) + high(ix);
+    const Int brick = law::hn::GatherIndex(law::DI(), reinterpret_cast<const std::int32_t*>(v.brickIndex().data()),
+                                           select(inside, slot, Int(0)).v);
+    const Int at = ((iz & low) * Int(VoxelGrid::kBrick) + (iy & low)) * Int(VoxelGrid::kBrick) + (ix & low);
+    const Real value = law::gather(v.values().data(), brick * Int(VoxelGrid::kBrickVoxels) + at);
+    return select(inside, value * grid.extinction, Real(0.0f));
+  }
+
   // Extinction of component `i` at points of cloud space.
-  Real extinctionOf(std::size_t i, Vec3 q) {
+  Real extinctionOf(std::size_t i, Vec3 q, Mask lanes) {
     const CloudCache& c = *s_.clouds;
+    if (i >= layers_.size() + sheets_.size())
+      return gridExtinction(c.grids[i - layers_.size() - sheets_.size()], q, lanes);
     if (i < layers_.size()) {
       const DensityTextures& t = c.noise;
       const TextureView main = c.weather.mainView(), extra = c.weather.extraView();
@@ -343,7 +379,7 @@ class Paths {
       Real sum = 0.0f;
       const Real at = xi - muAir_;
       for (std::size_t i = 0; i < s_.components.size(); ++i) {
-        const Real sigma = extinctionOf(i, q);
+        const Real sigma = extinctionOf(i, q, inCloud);
         const Mask chosen = both(both(at >= sum, at < sum + sigma), andNot(inCloud, shadow_));
         component = select(chosen, Real(static_cast<float>(i)), component);
         sum += sigma;
@@ -408,8 +444,7 @@ class Paths {
     for (std::size_t i = 0; i < s_.components.size(); ++i) {
       const Mask mine = isComponent(component, i);
       if (noneOf(mine)) continue;
-      grey = select(mine, target::evaluatePhase(phaseTable(i), versine),
-                    grey);
+      grey = select(mine, target::evaluatePhase(phaseTable(i), versine), grey);
     }
     Vec3 all(grey);
     if (noneOf(byAir)) return all;
@@ -457,9 +492,9 @@ class Paths {
     if (!noneOf(byAir)) {
       const Real chosen = law::dot(share, hero_);
       const Mask molecule = u < chosen;
-      const Real again = law::clamp(select(molecule, u / law::max(chosen, 1e-9f),
-                                           (u - chosen) / law::max(1.0f - chosen, 1e-9f)),
-                                    Real(0.0f), Real(0.99999994f));
+      const Real again =
+          law::clamp(select(molecule, u / law::max(chosen, 1e-9f), (u - chosen) / law::max(1.0f - chosen, 1e-9f)),
+                     Real(0.0f), Real(0.99999994f));
       // Rayleigh's cubic, cos^3 + 3 cos = 8 u - 4 (Frisvad 2011); the aerosol by its table.
       const Real q = 4.0f * again - 2.0f, root = law::sqrt(1.0f + q * q);
       const Real cube = law::exp(law::log(law::max(root + law::abs(q), 1e-6f)) * (1.0f / 3.0f));
@@ -502,8 +537,8 @@ class Paths {
   // Light that travels nearly along the sunbeams is far brighter than all other, by the forward peaks of its last
   // scatterings; a path finds it by chance only. So paths branch: with some chance a second one goes on from the same
   // place, drawn in the aureole round the sun, and all that the two find further on is shared by the balance heuristic
-  // (Veach and Guibas 1995). Branches branch too, up to kMostLevels. `at` answers phase function and density of a direction, `density`
-  // is that of the path's own.
+  // (Veach and Guibas 1995). Branches branch too, up to kMostLevels. `at` answers phase function and density of a
+  // direction, `density` is that of the path's own.
   template <class At>
   void planBranch(Mask lanes, Vec3 phaseSun, Real density, const At& at) {
     share_ = Real(1.0f);
@@ -742,27 +777,27 @@ class Paths {
 
   Vec3 sun_;
   Random random_;
-  Uint index_;               // pixel in the tile
-  Mask alive_, shadow_;      // has a path; asks for the sun
-  Mask branches_;            // will branch
+  Uint index_;           // pixel in the tile
+  Mask alive_, shadow_;  // has a path; asks for the sun
+  Mask branches_;        // will branch
   Mask toGround_, toSky_, done_;
-  Vec3 place_, way_;         // relative to the camera; unit
-  Real inverseX_, inverseY_; // 1 / |way_|
-  Real t_, tau_, end_;       // m along way_; optical depth to go; where the ground is
-  Real muCloud_, muAir_;     // bounds at the tentative collision, 1/m
-  Vec3 beta_, ratio_;        // throughput over the density of the deciding channel; density of each channel over that
-  Vec3 hero_;                // 1 for the deciding channel
-  Vec3 nextWay_;             // of the path while the sun is asked for
-  Vec3 branchBeta_, branchWay_, branchRatio_;         // of the branch to come
+  Vec3 place_, way_;          // relative to the camera; unit
+  Real inverseX_, inverseY_;  // 1 / |way_|
+  Real t_, tau_, end_;        // m along way_; optical depth to go; where the ground is
+  Real muCloud_, muAir_;      // bounds at the tentative collision, 1/m
+  Vec3 beta_, ratio_;         // throughput over the density of the deciding channel; density of each channel over that
+  Vec3 hero_;                 // 1 for the deciding channel
+  Vec3 nextWay_;              // of the path while the sun is asked for
+  Vec3 branchBeta_, branchWay_, branchRatio_;  // of the branch to come
   struct Left {
     Vec3 place, beta, ratio, way;
     Real count;
   };
   Left left_[kMostLevels];  // what branches left behind, to be taken up again
   Real level_;              // how many
-  Real share_;  // of what is found further on that is the path's, not the branch's
-  Vec3 pending_;             // what arrives if nothing is in the way
-  Real through_;             // and the share that does
+  Real share_;              // of what is found further on that is the path's, not the branch's
+  Vec3 pending_;            // what arrives if nothing is in the way
+  Real through_;            // and the share that does
   Vec3 light_, single_;
   Real count_, clear_, depth_;
 };

@@ -18,7 +18,7 @@ inline constexpr float kAirClimb = 1000.0f;  // m, by which a step may change it
 // A sheet is a slab of this height above Sheet::height; its law knows a vertical optical depth only.
 inline constexpr float kSheetThickness = 200.0f;  // m
 
-// What scatters besides the air: the layers, then the sheets.
+// What scatters besides the air: the layers, then the sheets, then the grids.
 struct Component {
   float albedo;
   int phase;  // index of its table
@@ -35,7 +35,8 @@ struct KernelScene {
   bool airScatters = true;  // the air is a medium; else its tables stand for it
   TextureView transmittance, skyView, aerialInscatter, aerialTransmittance;
   int aerosolPhase = 0;  // table of the air's aerosol
-  float aureole = 0.0f;  // versine within which the first component's forward peak lies, and its share of the scattering
+  float aureole =
+      0.0f;  // versine within which the first component's forward peak lies, and its share of the scattering
   float aureoleShare = 1.0f;
   law::CameraParams camera{};
   bool sunDisc = true;  // whether the camera sees it
@@ -51,7 +52,8 @@ struct PixelSums {
 };
 
 struct KernelStatistics {
-  std::uint64_t paths = 0, lookups = 0, scatterings = 0, turns = 0, strides = 0;
+  std::uint64_t paths = 0, lookups = 0, scatterings = 0;
+  std::uint64_t turns = 0;      // each asks for the density once, for all lanes together
   std::uint64_t overBound = 0;  // samples that exceeded their majorant: must be 0
   std::uint64_t notFinite = 0;  // paths that were dropped: must be 0
 };

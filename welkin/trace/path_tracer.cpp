@@ -34,8 +34,8 @@ std::vector<float> airBounds(const law::AtmosphereParams& air) {
     // A step may climb by kAirClimb or half of its altitude.
     const float climbed = high + std::max(kAirClimb, 0.51f * high);
     const float middle = law::airDensity(air, std::clamp(air.ozoneHeight, low, climbed)).z;
-    const glm::vec3 sigma = glm::vec3(air.rayleigh) * bottom.x + glm::vec3(air.mieExtinction) * bottom.y +
-                            glm::vec3(air.ozone) * middle;
+    const glm::vec3 sigma =
+        glm::vec3(air.rayleigh) * bottom.x + glm::vec3(air.mieExtinction) * bottom.y + glm::vec3(air.ozone) * middle;
     bounds[i] = 1.0001f * std::max({sigma.x, sigma.y, sigma.z});
   }
   return bounds;
@@ -59,7 +59,7 @@ struct PathTracer::Baked {
   }
 };
 
-PathTracer::PathTracer(const Scene& scene, std::span<const Volume> maps, const TraceSettings& settings)
+PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const TraceSettings& settings)
     : baked_(std::make_unique<Baked>()), settings_(settings), seed_(static_cast<std::uint32_t>(scene.seed)) {
   if (settings.width < 1 || settings.height < 1 || settings.samples < 1)
     throw Error(ErrorKind::badInput, "", "a traced picture needs at least one pixel and one sample");
@@ -70,7 +70,8 @@ PathTracer::PathTracer(const Scene& scene, std::span<const Volume> maps, const T
                              .noise = scene.noise,
                              .drift = {scene.wind.speed, scene.wind.from, scene.time},
                              .seed = scene.seed,
-                             .weatherMaps = maps},
+                             .grids = inputs.grids,
+                             .weatherMaps = inputs.weatherMaps},
                             {}, eye, settings.clouds);
   KernelScene& k = b.kernel;
   k.planet = planetParams(eye);
@@ -92,6 +93,14 @@ PathTracer::PathTracer(const Scene& scene, std::span<const Volume> maps, const T
                                                   : PhaseTable::henyeyGreenstein(kIceAsymmetry))});
     // sheetOpticalDepth is at most 1.4 times the sheet's own.
     k.sheetBounds.push_back(1.4001f * sheet.opticalDepth / kSheetThickness);
+  }
+  // Named grids only: those without a file are no clouds.
+  std::vector<const GridCloud*> named;
+  for (const GridCloud& grid : scene.grids)
+    if (!grid.file.empty()) named.push_back(&grid);
+  for (std::size_t i = 0; i < inputs.grids.size(); ++i) {
+    const float diameter = i < named.size() ? named[i]->dropletDiameter : CloudLayer{}.dropletDiameter;
+    k.components.push_back({1.0f, b.phaseOf(PhaseTable::mie(computeMiePhase(diameter)))});
   }
   k.aerosolPhase = b.phaseOf(PhaseTable::henyeyGreenstein(scene.atmosphere.mieG));
   for (const PhaseTable& table : b.phases) k.phases.push_back(table.view());
@@ -145,7 +154,8 @@ int PathTracer::nextSamples(const Tile& tile) const {
 
 void PathTracer::traceTile(Tile& tile, int samples) {
   std::vector<PixelSums> sums(static_cast<std::size_t>(tile.width) * tile.height, PixelSums{});
-  const TileJob job{tile.x, tile.y, tile.width, tile.height, settings_.width, settings_.height, tile.samples, samples, seed_};
+  const TileJob job{tile.x,           tile.y,       tile.width, tile.height, settings_.width,
+                    settings_.height, tile.samples, samples,    seed_};
   const KernelStatistics found = trace::traceTile(baked_->kernel, job, sums);
   for (int y = 0; y < tile.height; ++y)
     for (int x = 0; x < tile.width; ++x) {
@@ -165,7 +175,6 @@ void PathTracer::traceTile(Tile& tile, int samples) {
   statistics_.paths += found.paths;
   statistics_.lookups += found.lookups;
   statistics_.turns += found.turns;
-  statistics_.strides += found.strides;
   statistics_.scatterings += found.scatterings;
   statistics_.overBound += found.overBound;
   statistics_.notFinite += found.notFinite;

@@ -2,10 +2,10 @@
 // The reference: a Monte Carlo path tracer for skies, without bias in its transport.
 //
 // Distances in cloud are drawn by delta tracking and the sun's light is dimmed by ratio tracking (Novak et al. 2014)
-// under local bounds (density/cloud_cache.hpp); the air is a medium of its own whose colour is handled by balancing over
-// the channels (Wilkie et al. 2014, Kutz et al. 2017). Roulette is compensated and no number of scatterings is the last.
-// What is not the law itself: the weather is cached on a fine lattice (13 m nearby) and bilinear in between, and the
-// air's transmittance to the sun comes from the table (3e-3 of it at most).
+// under local bounds (density/cloud_cache.hpp); the air is a medium of its own whose colour is handled by balancing
+// over the channels (Wilkie et al. 2014, Kutz et al. 2017). Roulette is compensated and no number of scatterings is the
+// last. What is not the law itself: the weather is cached on a fine lattice (13 m nearby) and bilinear in between, and
+// the air's transmittance to the sun comes from the table (3e-3 of it at most).
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,8 +23,8 @@
 namespace welkin::trace {
 
 // medium: light is scattered by the air as by the clouds. tables: the sky and the air between the camera and what it
-// sees come from the real-time renderer's tables, as if there were no clouds: biased, faster, less noise. Skies that are
-// not physical are always taken from tables.
+// sees come from the real-time renderer's tables, as if there were no clouds: biased, faster, less noise. Skies that
+// are not physical are always taken from tables.
 enum class AirModel { medium, tables };
 
 // Whether the camera sees the sun itself.
@@ -32,13 +32,19 @@ enum class SunDisc { seen, leftOut };
 
 struct TraceSettings {
   int width = 1280, height = 720;
-  int samples = 64;      // of a pixel; with `noise` the most
-  double noise = 0.0;    // > 0: each tile of 16 x 16 pixels until its standard error (root mean square over the tile) is
-                         // this share of its mean luminance
+  int samples = 64;    // of a pixel; with `noise` the most
+  double noise = 0.0;  // > 0: each tile of 16 x 16 pixels until its standard error (root mean square over the tile) is
+                       // this share of its mean luminance
   double seconds = 0.0;  // > 0: stop then
   AirModel air = AirModel::medium;
   SunDisc sunDisc = SunDisc::seen;
   CloudCacheExtent clouds{};  // how finely the weather is cached
+};
+
+// What a scene names in files.
+struct TraceInputs {
+  std::span<const Volume> weatherMaps{};  // the authoring picture of every layer that names one, at its index
+  std::span<const PlacedGrid> grids{};    // the scene's grids that name a file, in order
 };
 
 // What a traced picture consists of; all linear, kcd/m^2.
@@ -54,8 +60,8 @@ struct TraceLayers {
 
 class PathTracer {
  public:
-  // `maps`: the authoring picture of every layer that names one, at its index. Throws Error (badInput).
-  PathTracer(const Scene& scene, std::span<const Volume> maps, const TraceSettings& settings);
+  // Throws Error (badInput).
+  PathTracer(const Scene& scene, const TraceInputs& inputs, const TraceSettings& settings);
   ~PathTracer();
 
   // Traces until the settings are met. `checkpoint`, if given, is called every few seconds between tiles. Cancelled by
