@@ -44,7 +44,7 @@ struct Row {
   std::function<void()> gpu, cpu;
 };
 
-constexpr realtime::WeatherExtent kWeather;
+constexpr WeatherExtent kWeather;
 
 // Draws the clip levels.
 class WeatherOnTheGpu {

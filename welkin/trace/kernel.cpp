@@ -11,7 +11,6 @@
 
 #include "welkin/atmosphere/law-inl.hpp"
 #include "welkin/density/law-inl.hpp"
-#include "welkin/noise/rows-inl.hpp"
 #include "welkin/scene/law-inl.hpp"
 #include "welkin/trace/kernel.hpp"
 #include "welkin/trace/phase_table-inl.hpp"

@@ -16,7 +16,6 @@
 
 #include "welkin/base/image.hpp"
 #include "welkin/base/progress.hpp"
-#include "welkin/noise/volume.hpp"
 #include "welkin/scene/scene.hpp"
 #include "welkin/trace/kernel.hpp"
 
