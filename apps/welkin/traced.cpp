@@ -143,8 +143,12 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
 void addStillOptions(CLI::App& command, TraceOptions& options) {
   command
       .add_option("--checkpoint", options.checkpoint,
-                  "path: keep the state in this file every few seconds, and go on from it when it is there")
+                  "path: keep the state in this file and go on from it when it is there")
       ->type_name("FILE");
+  command.add_option("--checkpoint-every", options.checkpointSeconds, "path: seconds between two checkpoints")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
   command.add_flag("--layers", options.layers,
                    "path: direct, multiple, transmittance, depth, samples and variance beside the picture, as .exr");
 }
@@ -156,7 +160,8 @@ trace::TraceSettings traceSettings(const TraceOptions& options) {
           .samples = options.samples > 0 ? options.samples : (open ? kMostSamples : kSamples),
           .noise = options.noise,
           .seconds = options.seconds,
-          .air = options.air == "tables" ? trace::AirModel::tables : trace::AirModel::medium};
+          .air = options.air == "tables" ? trace::AirModel::tables : trace::AirModel::medium,
+          .checkpointSeconds = options.checkpointSeconds};
 }
 
 void traceToFile(const Scene& scene, const TraceOptions& options, const std::string& output) {

@@ -13,7 +13,7 @@ enum class Renderer { realtime, path };
 struct TraceOptions {
   int width = 1280, height = 720;
   int samples = 0;  // 0: 64, or 4096 at most where noise or seconds decide
-  double noise = 0.0, seconds = 0.0;
+  double noise = 0.0, seconds = 0.0, checkpointSeconds = 5.0;
   std::string air = "medium", checkpoint;
   bool layers = false;
   Progress progress;

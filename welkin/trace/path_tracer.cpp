@@ -18,11 +18,10 @@ namespace welkin::trace {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kFirstSamples = 16;         // before the first estimate of a tile's noise
-constexpr std::size_t kGroup = 32;        // tiles between two looks at the clock
-constexpr double kCheckpointSeconds = 5;  // at least this long between two checkpoints
-constexpr float kAureole = 2.0f;          // 1/sr, where the forward peak ends: 25 times isotropic scattering
-constexpr double kIceAsymmetry = 0.78;    // .75 to .82 for ice
+constexpr int kFirstSamples = 16;       // before the first estimate of a tile's noise
+constexpr std::size_t kGroup = 32;      // tiles between two looks at the clock
+constexpr float kAureole = 2.0f;        // 1/sr, where the forward peak ends: 25 times isotropic scattering
+constexpr double kIceAsymmetry = 0.78;  // .75 to .82 for ice
 
 // Largest extinction of the air in each step of altitude; beyond the last there is none.
 std::vector<float> airBounds(const law::AtmosphereParams& air) {
@@ -215,7 +214,7 @@ bool PathTracer::run(const Progress& progress, const std::function<void()>& chec
       parallelFor(work.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) traceTile(*work[i].first, work[i].second);
       });
-      if (checkpoint && since(saved) > kCheckpointSeconds) {
+      if (checkpoint && since(saved) > settings_.checkpointSeconds) {
         checkpoint();
         saved = Clock::now();
       }

@@ -37,7 +37,8 @@ struct TraceSettings {
   double seconds = 0.0;  // > 0: stop then
   AirModel air = AirModel::medium;
   SunDisc sunDisc = SunDisc::seen;
-  CloudCacheExtent clouds{};  // how finely the weather is cached
+  double checkpointSeconds = 5.0;  // at least this long between two calls of `checkpoint`
+  CloudCacheExtent clouds{};       // how finely the weather is cached
 };
 
 // What a scene names in files.
@@ -63,7 +64,7 @@ class PathTracer {
   PathTracer(const Scene& scene, const TraceInputs& inputs, const TraceSettings& settings);
   ~PathTracer();
 
-  // Traces until the settings are met. `checkpoint`, if given, is called every few seconds between tiles. Cancelled by
+  // Traces until the settings are met. `checkpoint`, if given, is called now and then between tiles. Cancelled by
   // `progress`, it returns false; the picture so far is valid.
   bool run(const Progress& progress, const std::function<void()>& checkpoint = {});
 

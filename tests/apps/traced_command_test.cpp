@@ -1,0 +1,80 @@
+// `welkin render --renderer path`: same bytes, checkpoints that survive a kill, Ctrl-C, layers, refusals.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/apps/command.hpp"
+#include "welkin/io/exr.hpp"
+
+namespace welkin {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TracedCommand : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  // A sky without clouds: nothing to bake, so that there is something to interrupt at once.
+  std::string sky() const {
+    const std::string file = path("clear.sky.toml");
+    std::ofstream(file) << "format = 1\nlayer = []\n[camera]\nprojection = \"equirectangular\"\n";
+    return file;
+  }
+  test::Outcome render(const std::string& output, const std::string& options, const std::string& before = "") const {
+    return test::run("render " + sky() + " -q --renderer path -o " + path(output) + " " + options, before);
+  }
+  const fs::path folder = fs::temp_directory_path() / ("welkin_traced_" + std::to_string(getpid()));
+};
+
+TEST_F(TracedCommand, TwoRunsGiveTheSameBytesAndLayers) {
+  for (const char* name : {"a.exr", "b.exr"}) ASSERT_EQ(render(name, "--size 48x24 --samples 8 --layers").code, 0);
+  EXPECT_EQ(test::slurp(path("a.exr")), test::slurp(path("b.exr")));
+  for (const char* layer : {"direct", "multiple", "transmittance", "depth", "samples", "variance"})
+    EXPECT_EQ(loadExr(path(std::string("a.") + layer + ".exr")).width, 48) << layer;
+  EXPECT_EQ(*loadExr(path("a.samples.exr")).at(5, 5), 8.0f);
+}
+
+TEST_F(TracedCommand, GoesOnAfterAKill) {
+  const std::string options = "--size 192x96 --samples 40 --checkpoint-every 0 --checkpoint " + path("state");
+  // Killed when the first checkpoint stands, or at the latest after a minute.
+  const std::string kill = "( while [ ! -s " + path("state") + " ]; do sleep 0.05; done; kill -9 $p ) & wait $p";
+  const std::string line = std::string("sh -c '\"") + WELKIN_BINARY_DIR + "/bin/welkin\" render " + sky() +
+                           " -q --renderer path -o " + path("cut.exr") + " " + options + " & p=$!; " + kill +
+                           "' >/dev/null 2>&1";
+  [[maybe_unused]] const int ignored = std::system(line.c_str());
+  ASSERT_TRUE(fs::exists(path("state")));
+  ASSERT_FALSE(fs::exists(path("cut.exr")));
+  ASSERT_EQ(render("cut.exr", options).code, 0);
+  EXPECT_FALSE(fs::exists(path("state")));
+  ASSERT_EQ(render("whole.exr", "--size 192x96 --samples 40").code, 0);
+  EXPECT_EQ(test::slurp(path("cut.exr")), test::slurp(path("whole.exr")));
+}
+
+TEST_F(TracedCommand, InterruptedItWritesThePictureSoFar) {
+  const test::Outcome outcome =
+      render("part.exr", "--size 512x256 --samples 1000000", "timeout --signal=INT --preserve-status 3");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+  const Image picture = loadExr(path("part.exr"));
+  EXPECT_EQ(picture.width, 512);
+  double sum = 0.0;
+  for (const float v : picture.pixels) sum += v;
+  EXPECT_GT(sum, 0.0);
+}
+
+TEST_F(TracedCommand, RefusesWhatIsNotACheckpointOfThisPicture) {
+  std::ofstream(path("state")) << "something else";
+  const test::Outcome foreign = render("a.exr", "--size 16x8 --samples 1 --checkpoint " + path("state"));
+  EXPECT_EQ(foreign.code, 3);
+  EXPECT_NE(foreign.err.find("checkpoint"), std::string::npos) << foreign.err;
+  EXPECT_TRUE(fs::exists(path("state")));
+  EXPECT_EQ(render("a.exr", "--noise 7").code, 2);
+  EXPECT_EQ(render("a.exr", "--air thick").code, 2);
+}
+
+}  // namespace
+}  // namespace welkin
