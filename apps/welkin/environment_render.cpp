@@ -9,6 +9,7 @@
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/offscreen.hpp"
 #include "welkin/scene/features.hpp"
+#include "welkin/trace/denoise.hpp"
 
 namespace welkin::app {
 
@@ -126,7 +127,8 @@ Environment traceEnvironment(const Scene& source, const EnvironmentOptions& opti
     if (!tracer.run(stage)) throw Cancelled();
     const trace::TraceLayers layers = tracer.layers();
     const std::size_t first = picture * static_cast<std::size_t>(height);
-    std::copy(layers.radiance.pixels.begin(), layers.radiance.pixels.end(), out.light.at(0, static_cast<int>(first)));
+    const Image light = trace.denoise ? trace::denoise(layers) : layers.radiance;
+    std::copy(light.pixels.begin(), light.pixels.end(), out.light.at(0, static_cast<int>(first)));
     for (SunPixel& p : disc) {
       const std::size_t row = p.index / static_cast<std::size_t>(width);
       if (row < first || row >= first + static_cast<std::size_t>(height)) continue;

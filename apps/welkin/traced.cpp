@@ -14,6 +14,7 @@
 #include "welkin/io/grids.hpp"
 #include "welkin/scene/features.hpp"
 #include "welkin/scene/sections.hpp"
+#include "welkin/trace/denoise.hpp"
 
 namespace welkin::app {
 
@@ -138,6 +139,8 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
                   "real-time tables: faster, biased")
       ->check(CLI::IsMember({"medium", "tables"}))
       ->type_name("NAME");
+  command.add_flag("--denoise", options.denoise,
+                   "path: smooth the finished picture where its variance explains the noise: for the eye, biased");
 }
 
 void addStillOptions(CLI::App& command, TraceOptions& options) {
@@ -176,9 +179,10 @@ void traceToFile(const Scene& scene, const TraceOptions& options, const std::str
       tracer.run([&](double done) { return !interrupted && (!options.progress || options.progress(done)); },
                  [&] { checkpoint.save(tracer); });
   if (!complete) checkpoint.save(tracer);
-  trace::TraceLayers layers = tracer.layers();
-  layers.radiance.features = featuresOf(scene);
-  savePicture(output, layers.radiance, scene.film);
+  const trace::TraceLayers layers = tracer.layers();
+  Image picture = options.denoise ? trace::denoise(layers) : layers.radiance;
+  picture.features = featuresOf(scene);
+  savePicture(output, picture, scene.film);
   if (options.layers) saveLayers(output, layers);
   if (complete) checkpoint.remove();
   const trace::KernelStatistics& s = tracer.statistics();

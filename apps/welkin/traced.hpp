@@ -15,7 +15,7 @@ struct TraceOptions {
   int samples = 0;  // 0: 64, or 4096 at most where noise or seconds decide
   double noise = 0.0, seconds = 0.0, checkpointSeconds = 5.0;
   std::string air = "medium", checkpoint;
-  bool layers = false;
+  bool layers = false, denoise = false;
   Progress progress;
 };
 

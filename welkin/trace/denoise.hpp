@@ -1,0 +1,16 @@
+#pragma once
+// Noise taken out of a path-traced picture: non-local means on the tracer's own estimate of its variance.
+#include "welkin/base/image.hpp"
+#include "welkin/trace/path_tracer.hpp"
+
+namespace welkin::trace {
+
+// The radiance of `layers` (RGB, kcd/m^2), smoothed: each pixel becomes the mean of those around it (17 x 17) whose
+// patches (3 x 3) differ from its own no more than their variances explain, in luminance and transmittance, and lie at
+// its depth (distances after Rousselle et al. 2012, features after Rousselle et al. 2013). Few paths that found the sun
+// are spread, not cut off, so that the light of the picture as a whole stays. Weights come from the noise that they
+// smooth: a picture for the eye, not a reference. Pixels without variance or without samples stay as they are, bit for
+// bit. The result does not depend on the number of cores. Throws Error (badInput) for layers of different sizes.
+Image denoise(const TraceLayers& layers);
+
+}  // namespace welkin::trace
