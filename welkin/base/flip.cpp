@@ -142,12 +142,12 @@ Plane sensed(const Plane& in, std::initializer_list<Gaussian> terms, double ppd)
   std::vector<Kernel> kernels;
   std::vector<double> shares;
   double whole = 0;
-  for (const auto& [a, b] : terms) {
-    const auto gauss = [&](double x) { return std::exp(-kPi * kPi * x * x / (b * ppd * ppd)); };
+  for (const Gaussian& term : terms) {
+    const auto gauss = [&](double x) { return std::exp(-kPi * kPi * x * x / (term.b * ppd * ppd)); };
     double sum = 0;
     for (int i = -radius; i <= radius; ++i) sum += gauss(i);
     kernels.push_back(kernelOf(radius, [&](double x) { return gauss(x) / sum; }));
-    shares.push_back(a * std::sqrt(kPi / b) * sum * sum);
+    shares.push_back(term.a * std::sqrt(kPi / term.b) * sum * sum);
     whole += shares.back();
   }
   Plane out(in.width, in.height);
