@@ -185,7 +185,9 @@ TEST(ParityHarness, SeesASmallDifference) {
 }
 
 TEST(ParityHarness, RunTimeDispatchPicksTheWidestTarget) {
-  const std::int64_t best = hwy::SupportedTargets() & -hwy::SupportedTargets();
+  // Sanitizer builds leave targets out.
+  const std::int64_t built = hwy::SupportedTargets() & ~static_cast<std::int64_t>(HWY_DISABLED_TARGETS);
+  const std::int64_t best = built & -built;
   if (best & (HWY_AVX3 | HWY_AVX3_DL)) {
     EXPECT_EQ(simdLanes(), 16u);
   } else if (best & HWY_AVX2) {

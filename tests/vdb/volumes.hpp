@@ -1,5 +1,8 @@
 #pragma once
 // Small volumes for tests.
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -9,8 +12,19 @@
 
 namespace welkin::test {
 
+// Under a sanitizer a process maps terabytes of shadow memory, and a limit on address space kills whoever obeys it.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kShadowMemory = true;
+#else
+inline constexpr bool kShadowMemory = false;
+#endif
+
+// A file of the running test's own, since tests run at the same time.
 inline std::string temporary(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(WELKIN_BINARY_DIR) / "volumes";
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  std::string own = std::string(test.test_suite_name()) + "." + test.name();
+  std::replace(own.begin(), own.end(), '/', '_');
+  const std::filesystem::path folder = std::filesystem::path(WELKIN_BINARY_DIR) / "volumes" / own;
   std::filesystem::create_directories(folder);
   return (folder / name).string();
 }
