@@ -131,7 +131,7 @@ openvdb::FloatGrid::Ptr readGrid(openvdb::io::File& file, const std::string& pat
     throw Error(ErrorKind::badInput, path,
                 fmt::format("holds no float grid{}; it has {}", name.empty() ? "" : " called '" + name + "'",
                             others.empty() ? "no grids" : others));
-  const auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(chosen));
+  auto grid = openvdb::gridPtrCast<openvdb::FloatGrid>(file.readGrid(chosen));
   if (grid->getGridClass() == openvdb::GRID_LEVEL_SET)
     throw Error(ErrorKind::badInput, path,
                 fmt::format("'{}' is a level set, distances from a surface; export a fog volume", chosen));
@@ -158,8 +158,9 @@ void send(const Sink& sink, const std::string& path, const std::string& name, st
     header.dims[c] = box.max()[c] - box.min()[c] + 1;
   }
   const openvdb::Mat4d map = grid->transform().baseMap()->getAffineMap()->getMat4();
-  for (int row = 0; row < 4; ++row)  // row vectors there, columns here
-    for (int c = 0; c < 4; ++c) header.indexToWorld[static_cast<std::size_t>(4 * row + c)] = map(row, c);
+  for (std::size_t row = 0; row < 4; ++row)  // row vectors there, columns here
+    for (std::size_t c = 0; c < 4; ++c)
+      header.indexToWorld[4 * row + c] = map(static_cast<int>(row), static_cast<int>(c));
   sink(&header, sizeof header);
   sendText(sink, grid->getName());
   const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(grid->metaCount(), kMostNotes));
@@ -206,8 +207,8 @@ void send(const Sink& sink, const std::string& path, const std::string& name, st
 // Index space scaled to voxels of their true size, and what remains of the transform.
 std::pair<VoxelGrid, glm::dmat4> spaceOf(const std::string& path, const Header& header) {
   glm::dmat4 map;
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 4; ++r) map[c][r] = header.indexToWorld[static_cast<std::size_t>(4 * c + r)];
+  for (std::size_t c = 0; c < 4; ++c)
+    for (std::size_t r = 0; r < 4; ++r) map[static_cast<int>(c)][static_cast<int>(r)] = header.indexToWorld[4 * c + r];
   const glm::dvec3 voxel(glm::length(glm::dvec3(map[0])), glm::length(glm::dvec3(map[1])),
                          glm::length(glm::dvec3(map[2])));
   const double volume = std::abs(glm::determinant(glm::dmat3(map)));
