@@ -4,7 +4,7 @@
 // Distances in cloud are drawn by delta tracking and the sun's light is dimmed by ratio tracking (Novak et al. 2014)
 // under local bounds (density/cloud_cache.hpp); the air is a medium of its own whose colour is handled by balancing
 // over the channels (Wilkie et al. 2014, Kutz et al. 2017). Roulette is compensated and no number of scatterings is the
-// last. What is not the law itself: the weather is cached on a fine lattice (13 m nearby) and bilinear in between, and
+// last. What is not the law itself: the weather is cached on a fine lattice (20 m nearby) and bilinear in between, and
 // the air's transmittance to the sun comes from the table (3e-3 of it at most).
 #include <cstddef>
 #include <cstdint>
