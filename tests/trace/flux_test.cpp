@@ -230,5 +230,14 @@ TEST(Flux, RefusesNonsense) {
   EXPECT_THROW(traceFlux(grid, nullptr, forward(), {}, [](double) { return false; }), Cancelled);
 }
 
+// Lanes that never had a photon take part in every lookup.
+TEST(Flux, FewerPhotonsThanLanesStayInTheGrid) {
+  const FluxResult r = traceFlux(lumpy(), nullptr, forward(),
+                                 {.light = FluxLight::isotropic, .photons = 3, .views = {{0.0, 0.0}, {130.0, 200.0}}});
+  double out = 0.0;
+  for (const FluxEstimate& face : r.faces) out += face.mean;
+  EXPECT_NEAR(out, 1.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace welkin

@@ -15,6 +15,7 @@ namespace welkin::HWY_NAMESPACE {
 
 using law::Uint;
 
+
 inline constexpr float kTwoPi = 6.28318531f, kInvPi = 0.318309886f;
 inline constexpr std::size_t kMostLanes = 64;
 inline constexpr float kRouletteBelow = 0.0625f;
@@ -31,8 +32,19 @@ struct Photons {
   Real scatterings, bounces;  // events so far
   Real scattered, path;       // weights of scatterings, and weighted way in m
   Random random;
-  Mask alive = toMask(false);
-  HWY_INLINE Photons() {}
+  Mask alive;
+  // Lanes without a photon stand in the grid too, since lookups are made for all lanes.
+  HWY_INLINE Photons() {
+    for (int k = 0; k < 3; ++k) {
+      walker.brick[k] = Int(0);
+      walker.at[k] = Real(0.0f);
+      walker.way[k] = walker.perWay[k] = Real(1.0f);
+    }
+    walker.slot = Int(0);
+    weight = tau = scatterings = bounces = scattered = path = Real(0.0f);
+    random = {Uint(1u), Uint(2u), Uint(3u), Uint(4u)};
+    alive = toMask(false);
+  }
 };
 
 class Follower {
