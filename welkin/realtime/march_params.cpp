@@ -1,9 +1,9 @@
 #include "welkin/realtime/march_params.hpp"
 
-#include "welkin/light/phase.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "welkin/scene/scatterers.hpp"
 
 namespace welkin::realtime {
 
@@ -82,6 +82,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
     m.bottom = std::min(m.bottom, shell.bottom);
     m.top = std::max(m.top, shell.top);
   }
+  for (const GridCloud& grid : scene.grids)
+    if (!grid.file.empty()) albedo = std::min(albedo, grid.albedo);
   if (m.top < m.bottom) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
   m.skyIrradiance = glm::vec4(diffuse, albedo);
   m.airLight = veil.share();
@@ -100,7 +102,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.rainAbsorption = l.rainAbsorption;
   m.octaves = l.octaves;
   if (l.phase == PhaseModel::droplets && !scene.layers.empty()) {
-    const law::MiePhase mie = computeMiePhase(scene.layers.front().cloud.dropletDiameter);
+    const law::MiePhase mie = phaseOf(scene.layers.front().cloud);
     m.droplets = {mie.gHG, mie.gDraine, mie.alpha, mie.wDraine};
     m.useDroplets = 1;
   }
