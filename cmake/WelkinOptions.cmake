@@ -17,8 +17,8 @@ if(WELKIN_SANITIZE)
   target_compile_options(welkin_options INTERFACE -fsanitize=${WELKIN_SANITIZE} -fno-sanitize-recover=all
                                                   -fno-omit-frame-pointer -g1)
   # GCC sees uninitialised values where a sanitizer has taken its inlining away, in <regex> for one (GCC bug 105562).
-  target_compile_options(welkin_options INTERFACE -Wno-maybe-uninitialized)
-  # No sanitizer sees values that nobody has set; filled with a pattern they are no longer zero by chance.
+  target_compile_options(welkin_options INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
+  # No sanitizer sees values that nobody has set; filled with a pattern they are not zero by chance.
   target_compile_options(welkin_options INTERFACE -ftrivial-auto-var-init=pattern)
   target_link_options(welkin_options INTERFACE -fsanitize=${WELKIN_SANITIZE})
 endif()
