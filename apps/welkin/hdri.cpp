@@ -55,10 +55,12 @@ SunTreatment parseSun(const std::string& text, bool hdr) {
 
 void hdri(const HdriArguments& arguments) {
   requireFormat(arguments);
+  requireUse(arguments.trace, arguments.renderer);
   Scene scene = arguments.sky.scene();
   if (arguments.noClouds) {
     scene.layers.clear();
     scene.sheets.clear();
+    scene.grids.clear();
   }
   EnvironmentOptions options{.size = arguments.size, .frames = arguments.frames};
   options.sun = parseSun(arguments.sun, arguments.output.ends_with(".hdr"));

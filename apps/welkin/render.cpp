@@ -43,6 +43,9 @@ struct RenderArguments {
 
 void render(const RenderArguments& arguments) {
   const Size size = parseSize(arguments.size);
+  requireUse(arguments.trace, arguments.renderer);
+  if (arguments.renderer == Renderer::path && arguments.frames > 0)
+    throw UsageError("--frames is for the real-time renderer: leave it out, or --renderer path");
   const Scene scene = arguments.sky.scene();
   requirePictureFile(arguments.output);
   ProgressDisplay display("rendering", arguments.quiet ? ProgressStyle::quiet : ProgressStyle::automatic);

@@ -45,9 +45,9 @@ class InterruptGuard {
 // All that a picture depends on, as text.
 std::string identityOf(const Scene& source, std::span<const Volume> maps, const trace::TraceSettings& settings) {
   Scene scene = source;
-  std::string text =
-      fmt::format("{} {} {}x{} {} {} {} {}", WELKIN_VERSION, trace::laneCount(), settings.width, settings.height,
-                  settings.samples, settings.noise, static_cast<int>(settings.air), static_cast<int>(settings.sunDisc));
+  std::string text = fmt::format("{} {} {}x{} {} {} {} {} {}", WELKIN_VERSION, trace::laneCount(), settings.width,
+                                 settings.height, settings.samples, settings.noise, static_cast<int>(settings.air),
+                                 static_cast<int>(settings.sunDisc), settings.scatterings);
   for (const Section& section : sectionsOf(scene))
     for (const Field& field : section.fields)
       text += fmt::format("\n{}.{}={}", section.path, field.name, formatValue(field, field.get(section.object)));
@@ -124,36 +124,54 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
           "realtime (OpenGL) or path (path-traced, the reference)")
       ->check(CLI::IsMember({"realtime", "path"}))
       ->type_name("NAME");
-  command.add_option("--samples", options.samples, "path: paths of a pixel; 64 unless --noise or --seconds decides")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1 << 20));
-  command.add_option("--noise", options.noise, "path: go on until the noise is this share of the light, e.g. 0.02")
-      ->type_name("SHARE")
-      ->check(CLI::Range(1e-4, 1.0));
-  command.add_option("--seconds", options.seconds, "path: stop after this time")
-      ->type_name("S")
-      ->check(CLI::Range(0.1, 1e7));
-  command
-      .add_option("--air", options.air,
-                  "path: medium traces light through the air too; tables takes sky and aerial perspective from the "
-                  "real-time tables: faster, biased")
-      ->check(CLI::IsMember({"medium", "tables"}))
-      ->type_name("NAME");
-  command.add_flag("--denoise", options.denoise,
-                   "path: smooth the finished picture where its variance explains the noise: for the eye, biased");
+  const CLI::Option* flags[] = {
+      command
+          .add_option("--samples", options.samples, "path: paths of a pixel; 64 unless --noise or --seconds decides")
+          ->type_name("N")
+          ->check(CLI::Range(1, 1 << 20)),
+      command.add_option("--noise", options.noise, "path: go on until the noise is this share of the light, e.g. 0.02")
+          ->type_name("SHARE")
+          ->check(CLI::Range(1e-4, 1.0)),
+      command.add_option("--seconds", options.seconds, "path: stop after this time")
+          ->type_name("S")
+          ->check(CLI::Range(0.1, 1e7)),
+      command
+          .add_option("--air", options.air,
+                      "path: medium traces light through the air too; tables takes sky and aerial perspective from the "
+                      "real-time tables: faster, biased")
+          ->check(CLI::IsMember({"medium", "tables"}))
+          ->type_name("NAME"),
+      command
+          .add_option("--scatterings", options.scatterings,
+                      "path: end paths after so many scatterings by cloud, air and ground: biased, too dark")
+          ->check(CLI::Range(1, 1000000))
+          ->type_name("N"),
+      command.add_flag("--denoise", options.denoise,
+                       "path: smooth the finished picture where its variance explains the noise: for the eye, biased")};
+  options.flags.insert(options.flags.end(), std::begin(flags), std::end(flags));
 }
 
 void addStillOptions(CLI::App& command, TraceOptions& options) {
-  command
-      .add_option("--checkpoint", options.checkpoint,
-                  "path: keep the state in this file and go on from it when it is there")
-      ->type_name("FILE");
-  command.add_option("--checkpoint-every", options.checkpointSeconds, "path: seconds between two checkpoints")
-      ->type_name("S")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  command.add_flag("--layers", options.layers,
-                   "path: direct, multiple, transmittance, depth, samples and variance beside the picture, as .exr");
+  const CLI::Option* flags[] = {
+      command
+          .add_option("--checkpoint", options.checkpoint,
+                      "path: keep the state in this file and go on from it when it is there")
+          ->type_name("FILE"),
+      command.add_option("--checkpoint-every", options.checkpointSeconds, "path: seconds between two checkpoints")
+          ->type_name("S")
+          ->check(CLI::Range(0.0, 1e6))
+          ->capture_default_str(),
+      command.add_flag("--layers", options.layers,
+                       "path: direct, multiple, transmittance, depth, samples and variance beside the picture, as "
+                       ".exr")};
+  options.flags.insert(options.flags.end(), std::begin(flags), std::end(flags));
+}
+
+void requireUse(const TraceOptions& options, Renderer renderer) {
+  if (renderer == Renderer::path) return;
+  for (const CLI::Option* flag : options.flags)
+    if (flag->count() > 0)
+      throw UsageError(fmt::format("{} is for the path tracer: add --renderer path", flag->get_name()));
 }
 
 trace::TraceSettings traceSettings(const TraceOptions& options) {
@@ -164,6 +182,7 @@ trace::TraceSettings traceSettings(const TraceOptions& options) {
           .noise = options.noise,
           .seconds = options.seconds,
           .air = options.air == "tables" ? trace::AirModel::tables : trace::AirModel::medium,
+          .scatterings = options.scatterings,
           .checkpointSeconds = options.checkpointSeconds};
 }
 

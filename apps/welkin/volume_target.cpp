@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "welkin/light/phase.hpp"
+#include "welkin/scene/scatterers.hpp"
 
 namespace welkin::app {
 
@@ -32,7 +32,7 @@ std::string suffixFor(VolumeTarget target) {
 VolumeMedium mediumOf(const Scene& scene, VolumeDensity density) {
   // One medium for all layers: the first one's droplets.
   const CloudLayer& cloud = scene.layers.front().cloud;
-  return {extinctionAtOne(scene, density), cloud.albedo, meanCosine(computeMiePhase(cloud.dropletDiameter))};
+  return {extinctionAtOne(scene, density), cloud.albedo, meanCosine(phaseOf(cloud))};
 }
 
 std::string instructionsFor(std::optional<VolumeTarget> target, const VolumeMedium& medium,

@@ -76,5 +76,15 @@ TEST_F(TracedCommand, RefusesWhatIsNotACheckpointOfThisPicture) {
   EXPECT_EQ(render("a.exr", "--air thick").code, 2);
 }
 
+TEST_F(TracedCommand, RefusesOptionsOfTheOtherRenderer) {
+  for (const char* options : {"--samples 4", "--layers", "--denoise", "--checkpoint x", "--scatterings 2"}) {
+    const test::Outcome outcome = test::run("render " + sky() + " -q -o " + path("a.exr") + " " + options);
+    EXPECT_EQ(outcome.code, 2) << options;
+    EXPECT_NE(outcome.err.find("--renderer path"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(render("a.exr", "--frames 4").code, 2);
+  EXPECT_FALSE(fs::exists(path("a.exr")));
+}
+
 }  // namespace
 }  // namespace welkin

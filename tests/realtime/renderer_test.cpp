@@ -188,6 +188,48 @@ TEST(Temporal, AStillCameraConvergesToTheFullMarch) {
   EXPECT_LT(displayedPsnr(stage.draw(movingScene(4), 1), full), 40.0);
 }
 
+// How far a picture leaves the range of its counterpart's pixels within `reach`, at most, after tone mapping.
+double outside(const Image& picture, const Image& whole, int reach) {
+  const Image a = displayed(picture), b = displayed(whole);
+  double most = 0.0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        double low = 1e9, high = -1e9;
+        for (int v = std::max(y - reach, 0); v <= std::min(y + reach, b.height - 1); ++v)
+          for (int u = std::max(x - reach, 0); u <= std::min(x + reach, b.width - 1); ++u) {
+            low = std::min<double>(low, b.at(u, v)[c]);
+            high = std::max<double>(high, b.at(u, v)[c]);
+          }
+        const double value = a.at(x, y)[c];
+        most = std::max({most, low - value, value - high});
+      }
+  return most;
+}
+
+// Until every pixel has been marched, the others are filled in from those round them: the picture is soft, without
+// holes and without a pattern of sharp pixels among soft ones.
+TEST(Temporal, TheFirstFramesHaveNoHoles) {
+  Stage stage(128, 72);
+  const Image full = stage.draw(movingScene(1));
+  for (const int interleave : {2, 4}) {
+    double last = 0.0;
+    for (const int frames : {1, 2, 4, 6, 8, 12, 16}) {
+      if (frames > interleave * interleave) break;
+      const Image early = stage.draw(movingScene(interleave), frames);
+      const double like = displayedPsnr(early, full), far = outside(early, full, 2 * interleave);
+      std::printf("%dx%d, %2d frames: %.1f dB, %.3f outside, roughness %.5f of %.5f\n", interleave, interleave, frames,
+                  like, far, roughness(early), roughness(full));
+      // Pixels of the history are two of the picture's: values come from at most 2 x interleave pixels away. At the
+      // ground's edge those are seen against another sky.
+      EXPECT_LT(far, 0.06) << frames;
+      EXPECT_LT(roughness(early), 1.02 * roughness(full)) << frames;
+      EXPECT_GT(like, last) << frames;
+      last = like;
+    }
+  }
+}
+
 // A new sky replaces the old one in the history of a camera that stands still, however long it has looked.
 TEST(Temporal, ANewSkyIsSeenAtOnce) {
   Stage stage(64, 36);

@@ -5,6 +5,7 @@
 
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/error.hpp"
+#include "welkin/light/law.hpp"
 #include "welkin/trace/path_tracer.hpp"
 
 namespace welkin::trace {
@@ -182,6 +183,51 @@ TEST(PathTracer, SeesThroughGrids) {
   EXPECT_NEAR(clearOf(), std::exp(-2.4), 4.0 * std::sqrt(0.09 * 0.91 / 65536.0));
   scene.camera.position.x = 500.0;                             // along its western face
   EXPECT_NEAR(clearOf(), 0.5 * (1.0 + std::exp(-2.4)), 0.02);  // the face is 0 to 4 degrees off: perspective
+}
+
+// Light scattered once in a wide slab seen from below, of a phase function and albedo of its own, against its integral;
+// paths that may scatter more than once have the same in their direct layer.
+TEST(PathTracer, ScatteredOnceASlabSendsItsIntegral) {
+  VoxelGrid voxels({20, 20, 8}, {0.0, 0.0, 0.0}, {2000.0, 2000.0, 50.0});
+  for (int z = 0; z < 8; ++z)
+    for (int y = 0; y < 20; ++y)
+      for (int x = 0; x < 20; ++x) voxels.set({x, y, z}, 1.0f);
+  Scene scene = withoutAir();
+  scene.layers.clear();
+  scene.ground.albedo = glm::vec3(0.0f);
+  scene.sun.elevation = static_cast<float>(50.0 * kDegree);
+  scene.sun.azimuth = 0.0f;
+  scene.grids.push_back({.file = "slab",
+                         .position = {-20000.0, -20000.0, 900.0},
+                         .extinction = 0.003f,
+                         .albedo = 0.6f,
+                         .phase = ScatteringPhase::henyey_greenstein,
+                         .asymmetry = 0.5f});
+  const PlacedGrid grid = placed(scene.grids.front(), std::make_shared<VoxelGrid>(voxels));
+  scene.camera.position = {0.0, 0.0, 0.0};
+  scene.camera.pitch = static_cast<float>(90.0 * kDegree);
+  scene.camera.fov = static_cast<float>(0.5 * kDegree);
+  TraceSettings settings{.width = 32, .height = 32, .samples = 256, .sunDisc = SunDisc::leftOut, .scatterings = 1};
+  const auto layersOf = [&] {
+    PathTracer tracer(scene, {.grids = std::span(&grid, 1)}, settings);
+    EXPECT_TRUE(tracer.run({}));
+    EXPECT_EQ(tracer.statistics().overBound, 0u);
+    return tracer.layers();
+  };
+  const Mean once = meanOf(layersOf());
+  const double mu0 = std::sin(50.0 * kDegree), depth = 0.003 * 400.0, k = 1.0 / mu0 - 1.0;
+  const double phase = law::phaseHenyeyGreenstein(static_cast<float>(mu0), 0.5f);
+  const double share = 0.6 * phase * std::exp(-depth) * (1.0 - std::exp(-depth * k)) / k;
+  const double exact = share * luminanceOf(glm::dvec3(kSunIrradiance));
+  EXPECT_NEAR(luminanceOf(once.value), exact, 4.0 * once.error + 1e-3 * exact);
+  EXPECT_LT(once.error, 0.005 * exact);
+  settings.scatterings = 0;
+  const TraceLayers all = layersOf();
+  double direct = 0.0;
+  for (std::size_t i = 0; i < all.direct.pixels.size(); i += 3)
+    direct += luminanceOf({all.direct.pixels[i], all.direct.pixels[i + 1], all.direct.pixels[i + 2]}) / (32.0 * 32.0);
+  EXPECT_NEAR(direct, exact, 4.0 * once.error + 1e-3 * exact);
+  EXPECT_GT(luminanceOf(meanOf(all).value), 1.2 * exact);
 }
 
 // A picture that was interrupted, saved, and taken up again is the picture that was not.

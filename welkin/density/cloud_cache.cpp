@@ -105,31 +105,30 @@ class LayerBounds {
     const float amplitude = amplitudeOf(height), least = amplitudeOf(w.a.low);
     const float inside = height - low;
     float profile = std::min({inside / (inside > 0.0f ? least : amplitude), 1.0f, (height - 20.0f) * 0.02f});
-    float ice = 0.0f;
-    if (c_.hasAnvil != 0 && w.c.high > 0.0f) {
-      const float half = c_.thickness * 0.085f * (0.15f + 0.85f * w.c.high);
-      const float reach = 0.34f * c_.thickness * smooth(0.35f, 1.0f, w.c.high);
-      const float middle = 0.76f * c_.thickness;
-      const bool meets = low - middle < half && high - middle > -half - reach;
-      const float sheet = meets ? law::saturate(4.0f * w.c.high) : -1.0f;
-      if (meets) ice = 1.0f;
-      profile = std::max(profile, sheet) + 0.075f;  // a smooth maximum with k = 0.3 exceeds both by k / 4 at most
-    } else if (c_.hasAnvil != 0) {
-      profile = std::max(profile, -1.0f) + 0.075f;
-    }
-    const float eaten = c_.erosion * (ice > 0.0f ? 0.6f : 1.0f) *
-                        (c_.baseErosion + (1.0f - c_.baseErosion) * smooth(0.0f, 260.0f, low));
-    if (profile * least <= -0.5f * c_.fineDetail) return 0.0f;
+    // In m; a smooth maximum with k = 0.3 exceeds both by k / 4 at most.
+    const float joint = c_.hasAnvil != 0 ? 0.075f * amplitude : 0.0f;
+    float sheet = -INFINITY;
+    if (c_.hasAnvil != 0 && w.c.high > 0.0f)
+      sheet = std::min(2.5f * (law::anvilCeiling(w.c.high, c_) - low),
+                       law::anvilThickness(w.c.high, c_) - law::anvilCeiling(0.0f, c_) + high);
+    // Where either of them is this far outside, a point with cloud belongs to the other alone.
+    const float fine = 0.5f * c_.fineDetail;
+    const bool ice = sheet > -0.2f * amplitude - fine;
+    const bool water = profile > -0.2f - fine / least || low < 0.65f * c_.thickness;
+    const float eaten =
+        ice ? 0.0f : c_.erosion * (c_.baseErosion + (1.0f - c_.baseErosion) * smooth(0.0f, 260.0f, low));
+    if (!ice && profile * least + joint <= -fine) return 0.0f;
     const Interval n = noiseIn(noise_, q);
     const float cut = c_.baseCut * (1.0f - law::saturate(high * 0.00333333f));
-    float depth = profile - eaten * (1.0f - n.high) - cut;
-    depth *= depth > 0.0f ? amplitude : least;
-    depth += 0.5f * c_.fineDetail;  // detail only carves, except for the finest
-    const float ramp = ice > 0.0f ? std::max(c_.inverseRamp, c_.anvilRamp) : c_.inverseRamp;
+    const auto metres = [&](float share) { return share * (share > 0.0f ? amplitude : least); };
+    float depth = metres(profile - eaten * (1.0f - n.high) - cut);
+    if (ice) depth = std::max(depth, sheet);
+    depth += joint + fine;  // detail only carves, except for the finest
+    const float ramp = ice ? std::max(c_.inverseRamp, c_.anvilRamp) : c_.inverseRamp;
     const float dense =
         law::saturate(depth * ramp) * smooth(0.0f, c_.baseFade, high + 2.0f * c_.baseRagged * (n.high - 0.5f));
     const float liquid = 1.0f - c_.liquidGradient + c_.liquidGradient * std::sqrt(law::saturate(high / c_.thickness));
-    return c_.extinction * dense * liquid * std::max(1.0f, ice > 0.0f ? c_.anvilDensity : 1.0f);
+    return c_.extinction * dense * liquid * std::max(water ? 1.0f : 0.0f, ice ? c_.anvilDensity : 0.0f);
   }
 
   // nubisExtinctionIn likewise; the height profiles are at most 1.

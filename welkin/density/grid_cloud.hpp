@@ -6,6 +6,7 @@
 #include <string>
 
 #include "welkin/base/fields.hpp"
+#include "welkin/density/scatterers.hpp"
 #include "welkin/density/voxel_grid.hpp"
 
 namespace welkin {
@@ -34,7 +35,10 @@ struct GridCloud {
   GridValues values = GridValues::file;
   float extinction = 0.1f;  // 1/m
   float density = 1.0f;
+  float albedo = 1.0f;
+  ScatteringPhase phase = ScatteringPhase::droplets;
   float dropletDiameter = 12.0f;  // um
+  float asymmetry = 0.85f;
 };
 template <>
 struct FieldTable<GridCloud> {
@@ -53,8 +57,13 @@ struct FieldTable<GridCloud> {
                                   "`extinction`), extinction in 1/m, or liquid water in g/m^3"),
         field<&GridCloud::extinction, kPerMetre>("extinction", {0, 100}, {0.005, 0.5}, "of the value 1"),
         field<&GridCloud::density>("density", {0, 1000}, {0, 4}, "factor on all values"),
-        field<&GridCloud::dropletDiameter, kMicrometres>("droplet_diameter", {1, 200}, {5, 40},
-                                                         "effective diameter of the droplets, for values of water"));
+        field<&GridCloud::albedo>("albedo", {0, 1}, {0.9, 1}, "single-scattering albedo, for the path tracer"),
+        field<&GridCloud::phase>("phase", "phase function, for the path tracer"),
+        field<&GridCloud::dropletDiameter, kMicrometres>(
+            "droplet_diameter", {1, 200}, {5, 40},
+            "effective diameter of the droplets, for values of water and phase droplets"),
+        field<&GridCloud::asymmetry>("asymmetry", {-0.99, 0.99}, {0.7, 0.9},
+                                     "mean cosine of scattering, for phase henyey_greenstein"));
   }
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "welkin/base/fields.hpp"
+#include "welkin/density/scatterers.hpp"
 
 namespace welkin {
 
@@ -199,10 +200,12 @@ struct CloudLayer {
   float thickness = 1700.0f;  // m
   float extinction = 0.1f;    // 1/m
   float albedo = 1.0f;
+  ScatteringPhase phase = ScatteringPhase::droplets;
   float dropletDiameter = 12.0f;  // um
-  float shear = 0.0f;             // m of sideways offset from base to top
-  float detailDrift = 1.3f;       // speed of the detail noise relative to the wind
-  float updraft = 0.5f;           // m/s
+  float asymmetry = 0.85f;
+  float shear = 0.0f;        // m of sideways offset from base to top
+  float detailDrift = 1.3f;  // speed of the detail noise relative to the wind
+  float updraft = 0.5f;      // m/s
   int seed = 0;
 };
 template <>
@@ -216,8 +219,11 @@ struct FieldTable<CloudLayer> {
                                                "from the base to the highest top"),
         field<&CloudLayer::extinction, kPerMetre>("extinction", {0, 1}, {0.005, 0.2}, "extinction of dense cloud"),
         field<&CloudLayer::albedo>("albedo", {0, 1}, {0.9, 1}, "single-scattering albedo of a droplet"),
+        field<&CloudLayer::phase>("phase", "phase function of the path tracer and of lighting.phase droplets"),
         field<&CloudLayer::dropletDiameter, kMicrometres>("droplet_diameter", {5, 50}, {5, 40},
-                                                          "diameter of the droplets, for lighting.phase droplets"),
+                                                          "diameter of the droplets, for phase droplets"),
+        field<&CloudLayer::asymmetry>("asymmetry", {-0.99, 0.99}, {0.7, 0.9},
+                                      "mean cosine of scattering, for phase henyey_greenstein"),
         field<&CloudLayer::shear, kMetres>("shear", {0, 20000}, {0, 3000}, "how far the wind leans the tops"),
         field<&CloudLayer::detailDrift>("detail_drift", {0, 5}, {0, 2}, "speed of the detail as a share of the wind"),
         field<&CloudLayer::updraft, kMetresPerSecond>("updraft", {0, 20}, {0, 3}, "rise of the noise inside the cloud"),

@@ -126,7 +126,7 @@ law::LayerParams layerParams(const Layer& layer, const glm::dvec3& anchor, const
     const glm::dvec3 o = origin(1.0, 1.0);
     const glm::dvec2 downwind(-std::sin(drift.windFrom), -std::cos(drift.windFrom));
     const double along = o.x * downwind.x + o.y * downwind.y, across = o.y * downwind.x - o.x * downwind.y;
-    p.fibres = noiseOrigin({along / law::kFibreStretch, across, o.z}, s.noiseTile);
+    p.fibres = noiseOrigin({along / law::kFibreStretch, across, o.z / law::kFibreDepth}, law::kFibreTile * s.noiseTile);
     p.detailing = noiseOrigin(origin(cloud.detailDrift, 1.5), s.detailTile);
     p.fine = noiseOrigin(origin(cloud.detailDrift, 2.0), s.fineTile);
   } else {

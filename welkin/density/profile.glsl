@@ -50,24 +50,42 @@ FN Vec2 profileColumn(IN(Vec3) q, IN(LayerParams) c, IN(Sampler3) warpNoise) {
 }
 
 // The anvil of a cumulonimbus: ice that spreads below the tropopause, which is its flat top, and hangs lower toward the
-// tower. Heights are shares of the layer's thickness.
+// tower. Heights are shares of the layer's thickness; `anvil` is 0 at its rim and 1 over the tower, hb in m above the
+// base.
 const float kAnvilTop = 0.84f;
-const float kFibreStretch = 6.0f;
+const float kFibreStretch = 12.0f;
+const float kFibreDepth = 5.0f;
+const float kFibreTile = 0.6f;  // of the base noise's
 
-// Fibres that the wind has drawn out, 0..1.
+// Height of its top in m: the strongest ascent shoots a little beyond the tropopause.
+FN Real anvilCeiling(IN(Real) anvil, IN(LayerParams) c) {
+  return c.thickness * (kAnvilTop + 0.03f * smoothstep(0.75f, 1.0f, anvil));
+}
+
+// How far it reaches down from there, m.
+FN Real anvilThickness(IN(Real) anvil, IN(LayerParams) c) {
+  Real near = smoothstep(0.45f, 1.0f, anvil);
+  return c.thickness * (0.1f * saturate(1.6f * anvil) + 0.16f * near * near);
+}
+
+// Fibres that the wind has drawn out, 0..1; they hardly change through its depth.
 FN Real anvilFibre(IN(Vec3) q, IN(LayerParams) c, IN(Sampler3) baseNoise) {
   Real along = q.x * c.downwindX + q.y * c.downwindY;
   Real across = q.y * c.downwindX - q.x * c.downwindY;
-  return sample3(baseNoise, Vec3(along / kFibreStretch, across, q.z) * c.fibres.w + xyz(c.fibres)).x;
+  Vec3 drawn = Vec3(along / kFibreStretch, across, q.z / kFibreDepth);
+  return sample3(baseNoise, drawn * c.fibres.w + xyz(c.fibres)).x;
 }
 
-// Depth inside the anvil in m, negative outside: `anvil` is 0 at its rim and 1 over the tower, hb in m above the base.
-FN Real anvilDepth(IN(Real) anvil, IN(Real) hb, IN(Real) fibre, IN(LayerParams) c) {
-  Real near = smoothstep(0.45f, 1.0f, anvil);
-  Real below = kAnvilTop * c.thickness - hb;
-  Real deep = c.thickness * (0.015f + 0.085f * saturate(1.6f * anvil) + 0.16f * near * near);
-  Real torn = c.thickness * mix(Real(0.075f), Real(0.05f), near) * (1.0f - fibre);
-  return select(anvil > 0.0f, min(2.5f * below, deep - below) - torn, Real(-1000.0f));
+// The anvil that evaporation has left between its fibres, at most `anvil`.
+FN Real anvilLeft(IN(Real) anvil, IN(Real) fibre) {
+  return anvil - 0.5f * (1.0f - fibre) * (1.0f - anvil);
+}
+
+// Depth inside it in m, negative outside.
+FN Real anvilDepth(IN(Real) left, IN(Real) hb, IN(Real) fibre, IN(LayerParams) c) {
+  Real below = anvilCeiling(left, c) - hb;
+  Real torn = 0.035f * c.thickness * (1.0f - fibre) * saturate(3.0f * left);
+  return select(left > 0.0f, min(2.5f * below, anvilThickness(left, c) - below) - torn, Real(-1000.0f));
 }
 
 // The answer at the unsheared point q whose column has weather w.
@@ -77,13 +95,17 @@ FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(Layer
   Real amplitude = min(Real(c.lengthScale), c.lengthFraction * w.x + c.minLength);
   Real profile = min(min((w.x - hb) / amplitude, Real(1.0f)), (w.x - 20.0f) * 0.02f);
   Real ice = 0.0f;
+  Real thin = 1.0f;
   Real n = sample3(baseNoise, q * c.noise.w + xyz(c.noise)).x;
   if (c.hasAnvil != 0) {
-    // Towers stop where the anvil spreads; a little of what is left of their ascent shoots over it.
-    Real limit = (kAnvilTop - 0.03f) * c.thickness;
+    // Towers end inside the anvil, so that no turret of water stands out of the ice.
+    Real limit = (kAnvilTop - 0.12f) * c.thickness;
     Real tower = min(w.x, limit + 0.04f * max(w.x - limit, 0.0f));
     profile = min(min((tower - hb) / amplitude, Real(1.0f)), (tower - 20.0f) * 0.02f);
-    Real sheet = anvilDepth(w.z, hb, anvilFibre(q, c, baseNoise), c) / amplitude;
+    Real fibre = anvilFibre(q, c, baseNoise);
+    Real left = anvilLeft(w.z, fibre);
+    thin = smoothstep(0.0f, 0.5f, left);
+    Real sheet = anvilDepth(left, hb, fibre, c) / amplitude;
     ice = saturate(0.5f + 4.0f * (sheet - profile)) * smoothstep(0.45f, 0.65f, hb / c.thickness);
     profile = smoothMax(profile, sheet, 0.3f);
   }
@@ -103,7 +125,7 @@ FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(Layer
   Real dense = saturate(depth * mix(Real(c.inverseRamp), Real(c.anvilRamp), ice)) *
                smoothstep(0.0f, c.baseFade, hb + 2.0f * c.baseRagged * (n - 0.5f));
   Real liquid = 1.0f - c.liquidGradient + c.liquidGradient * sqrt(saturate(hb / c.thickness));
-  Real sigma = c.extinction * dense * liquid * mix(Real(1.0f), Real(c.anvilDensity), ice);
+  Real sigma = c.extinction * dense * liquid * mix(Real(1.0f), c.anvilDensity * thin, ice);
   Mask within = both(q.z > c.bottom, q.z < c.top);
   sigma = select(within, sigma, Real(0.0f));
   return Vec3(sigma, select(within, profile, Real(-1.0f)), sigma * w.w);

@@ -124,8 +124,8 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     Real rate = chance * gathering(place, w) * map4.x / max(w.coverage, 1e-3f);
     Mask here = unitFromHash(h2) < 1.0f - exp(-rate);
     Real u = unitFromHash(nextHash(h2));
-    // Towers with anvils, and those that stand among them, are narrow: an anvil reaches 3.4 radii downwind, and no cloud
-    // may reach farther than half a cell.
+    // Towers with anvils, and those that stand among them, are narrow: an anvil reaches 3.4 radii, and no cloud may reach
+    // farther than half a cell.
     float reach = size * mix(0.5f, scale == 1 ? 0.147f : 0.25f, saturate(w.anvil * 4.0f));
     Real r = reach * (0.5f + 0.5f * u);
     Real relative = r / (0.5f * w.cells.size);
@@ -133,24 +133,27 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     Real lift = 1.0f;
     if (w.anvil <= 0.0f || scale > 1) lift = exp(0.75f * log(max(relative, 1e-4f)));
     Real top = w.thickness * growth(place, w) * mix(Real(0.6f), Real(1.4f), map4.z) * lift * (0.8f + 0.2f * u);
-    Real best = dome(dot(d, d), mix(0.8f, 1.0f, w.anvil) * r, mix(0.6f, 0.95f, w.anvil) * top);
+    // Under an anvil the tower is narrower still.
+    float slim = scale == 1 ? mix(1.0f, 0.75f, saturate(w.anvil * 4.0f)) : 1.0f;
+    Real best = dome(dot(d, d), slim * mix(0.8f, 1.0f, w.anvil) * r, mix(0.6f, 0.95f, w.anvil) * top);
     Uint s = h2;
     for (int j = 0; j < 6; ++j) {
       s = nextHash(s);
       Real away = sqrt(unitFromHash(s)) * 0.68f;
       s = nextHash(s);
       Real turn = 6.2831853f * unitFromHash(s);
-      Real rs = r * (0.3f + 0.28f * unitFromHash(nextHash(s ^ 0x1B56C4E9u)));
-      Vec2 e = d - Vec2(cos(turn), sin(turn)) * (away * r);
+      Real rs = slim * r * (0.3f + 0.28f * unitFromHash(nextHash(s ^ 0x1B56C4E9u)));
+      Vec2 e = d - Vec2(cos(turn), sin(turn)) * (away * slim * r);
       best = max(best, dome(dot(e, e), rs, min(top * (1.0f - 0.75f * away), 3.1f * rs)));
     }
     height = max(height, select(here, best, Real(0.0f)));
-    // The anvil: half an ellipse to windward of the tower and, since the wind carries it off, a longer one downwind.
+    // The anvil: a plume that the wind carries off and that widens on its way, blunt to windward.
     Real along = d.x * w.downwindX + d.y * w.downwindY;
-    Real across = (d.y * w.downwindX - d.x * w.downwindY) / (1.9f * r);
-    along = along / (select(along > 0.0f, Real(3.4f), Real(1.5f)) * r);
-    Real q = along * along + across * across;
-    anvil = max(anvil, select(here, max(1.0f - q, 0.0f), Real(0.0f)) * (scale == 1 ? w.anvil : 0.0f));
+    Real across = d.y * w.downwindX - d.x * w.downwindY;
+    along = along / (select(along > 0.0f, Real(2.9f), Real(1.4f)) * r);
+    across = across / (r * (1.15f + 0.6f * saturate(along)));
+    Real plume = max(1.0f - along * along, 0.0f) * max(1.0f - across * across, 0.0f);
+    anvil = max(anvil, select(here, plume, Real(0.0f)) * (scale == 1 ? w.anvil : 0.0f));
   }
   return Vec2(height, anvil);
 }
@@ -187,7 +190,9 @@ FN Real uniformSheet(IN(Vec2) p, IN(WeatherParams) w, IN(Real) coverage) {
   Real large = latticeFbm(p, w.clusters, seed);
   Real small = latticeFbm(p, w.cells, seed + 7u);
   Real n = 0.6f * large + 0.4f * small;
-  Real threshold = mix(Real(0.78f), Real(0.05f), coverage);
+  // The noise falls to 0 in a few places, and full coverage closes those too.
+  Real full = coverage * coverage * coverage * coverage;
+  Real threshold = mix(Real(0.78f), Real(0.05f), coverage) - 0.23f * full * full;
   return w.thickness * smoothstep(threshold, threshold + 0.18f, n) * (0.55f + 0.9f * (small - 0.25f * large));
 }
 
@@ -221,7 +226,11 @@ FN Vec4 profileWeather(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map) {
   }
   Real vary = latticeNoise(p, w.warp, 1, seed + 41u);
   Real shift = 2.0f * w.baseVariation * (vary - 0.5f) + w.baseRange * map4.w;
-  return Vec4(height, shift, anvil, map4.y);
+  Real rain = map4.y;
+  // A sheet rains harder in some places than in others.
+  if (w.population == kPopulationUniform && w.useMap == 0)
+    rain = saturate(rain * 2.0f * smoothstep(0.3f, 0.7f, latticeFbm(p, w.cells, seed + 151u)));
+  return Vec4(height, shift, anvil, rain);
 }
 
 // Weather for shape "nubis" at p (004 ch. 4.3.3): rain stands only where coverage is high, and turns the type to

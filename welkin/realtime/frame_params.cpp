@@ -74,11 +74,11 @@ FrameParams frameParams(const Frame& frame, int width, int height, int interleav
 }
 
 void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& moved, const glm::dvec2& drifted,
-                bool valid, float share) {
+                History history, float share) {
   params.timing.y = share;
   const bool sameKind =
       last && last->camera.forward.w == params.camera.forward.w && last->camera.angles == params.camera.angles;
-  params.timing.z = valid && sameKind ? 1.0f : 0.0f;
+  params.timing.z = sameKind ? static_cast<float>(history) : 0.0f;
   params.wind = glm::vec4(glm::vec3(glm::dvec3(drifted, 0.0)), params.wind.w);
   if (!last) return;
   // A position relative to this eye, made relative to the last one, then projected as it was then.

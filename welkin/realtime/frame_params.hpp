@@ -19,10 +19,14 @@ struct FrameParams {
 FrameParams frameParams(const Frame& frame, int historyWidth, int historyHeight, int interleave, const Quality& quality,
                         int frames);
 
+// What a view's history holds: nothing; a picture to be reprojected; or, while a view that has not moved since it began
+// fills its blocks for the first time, marched pixels among others that are to be filled in.
+enum class History { none, picture, begun };
+
 // Fills in what leads back to the last frame. `moved`: how the eye moved; `drifted`: how the air moved; `share` of the
 // new sample in the history.
 void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& moved, const glm::dvec2& drifted,
-                bool valid, float share);
+                History history, float share);
 
 // Whether two frames look the same way (position and time apart).
 bool sameView(const FrameParams& a, const FrameParams& b);

@@ -1,9 +1,9 @@
 #include "welkin/realtime/march_params.hpp"
 
-#include "welkin/light/phase.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "welkin/scene/scatterers.hpp"
 
 namespace welkin::realtime {
 
@@ -16,14 +16,34 @@ constexpr float kStepPerMetre = 0.004f, kMinStep = 12.0f, kMaxStep = 250.0f;  //
 constexpr float kFar = 300000.0f;                                             // m, where clouds have faded into the air
 constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets; a test counts
 
-// Ratio of a geometric series of `steps` terms from kLightFirst (march.glsl) that reaches as far as 9 steps of ratio
-// 1.6, which large clouds need (1700 m).
-float lightRatio(int steps) {
-  constexpr double kFirst = 15.0, kReach = 1690.0;
+// How much of a closed layer's depth the marches toward the light have to see, lest its underside be lit as if sun and
+// sky shone from within; 0 where no layer is closed.
+double closedDepth(const Scene& scene) {
+  double depth = 0.0;
+  for (const Layer& layer : scene.layers)
+    if (layer.weather.coverage > 0.85f) depth = std::max(depth, 0.4 * layer.cloud.thickness);
+  return depth;
+}
+
+// How far the march toward the sun goes: as far as 9 steps of ratio 1.6, which large clouds need, if not farther.
+double lightReach(double closed, float sunHeight) {
+  constexpr double kReach = 1690.0, kFarthest = 6000.0;
+  return std::min(std::max(kReach, closed / std::max(sunHeight, 0.1f)), kFarthest);
+}
+
+// First of `steps` steps upward, m, whose ratio is kAmbientRatio (march.glsl).
+float ambientFirst(double closed, int steps) {
+  constexpr double kFirst = 60.0, kRatio = 2.5;
+  return static_cast<float>(std::max(kFirst, closed * (kRatio - 1.0) / (std::pow(kRatio, std::max(steps, 1)) - 1.0)));
+}
+
+// Ratio of a geometric series of `steps` terms from kLightFirst (march.glsl) that reaches so far.
+float lightRatio(int steps, double reach) {
+  constexpr double kFirst = 15.0;
   double low = 1.0001, high = 200.0;
   for (int i = 0; i < 60; ++i) {
     const double ratio = 0.5 * (low + high);
-    (kFirst * (std::pow(ratio, steps) - 1.0) / (ratio - 1.0) < kReach ? low : high) = ratio;
+    (kFirst * (std::pow(ratio, steps) - 1.0) / (ratio - 1.0) < reach ? low : high) = ratio;
   }
   return static_cast<float>(low);
 }
@@ -33,7 +53,6 @@ float lightRatio(int steps) {
 // the layers' settings: this steers only the light of ground and air under the clouds.
 struct Veil {
   float cover = 0.0f, through = 1.0f;
-  float share() const { return 1.0f - cover + cover * through; }
 };
 Veil veilOf(const Scene& scene) {
   Veil veil;
@@ -82,9 +101,13 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
     m.bottom = std::min(m.bottom, shell.bottom);
     m.top = std::max(m.top, shell.top);
   }
+  for (const GridCloud& grid : scene.grids)
+    if (!grid.file.empty()) albedo = std::min(albedo, grid.albedo);
   if (m.top < m.bottom) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
   m.skyIrradiance = glm::vec4(diffuse, albedo);
-  m.airLight = veil.share();
+  // Air in the shade sees the clouds above, the gaps between them, and the ground.
+  const glm::vec3 below = 0.5f * (glm::vec3(1.0f) + scene.ground.albedo);
+  m.shadedAir = glm::vec4(below * diffuse / 3.14159265f, veil.cover);
   m.stepScale = kStepPerMetre * q.stepScale;
   m.minStep = kMinStep * std::min(q.stepScale, 1.5f);
   m.maxStep = kMaxStep;
@@ -100,7 +123,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.rainAbsorption = l.rainAbsorption;
   m.octaves = l.octaves;
   if (l.phase == PhaseModel::droplets && !scene.layers.empty()) {
-    const law::MiePhase mie = computeMiePhase(scene.layers.front().cloud.dropletDiameter);
+    const law::MiePhase mie = phaseOf(scene.layers.front().cloud);
     m.droplets = {mie.gHG, mie.gDraine, mie.alpha, mie.wDraine};
     m.useDroplets = 1;
   }
@@ -109,7 +132,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.refine = q.refine ? 1 : 0;
   m.maxTurns = kMaxTurns;
   m.groundSteps = 32;
-  m.lightRatio = lightRatio(q.lightSteps);
+  m.lightRatio = lightRatio(q.lightSteps, lightReach(closedDepth(scene), sunHeight));
+  m.ambientFirst = ambientFirst(closedDepth(scene), q.ambientSteps);
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;
     m.lightSteps = 6;

@@ -8,6 +8,7 @@ struct MarchParams {
   vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
   vec4 groundAlbedo;    // w: 1 when the ground is drawn
   vec4 skyIrradiance;   // on the ground, clouds counted in, klx; w: albedo of the droplets
+  vec4 shadedAir;       // radiance of air in the clouds' shade in kcd/m^2, w: share of the air below that lies there
   vec4 droplets;        // MiePhase of the first scattering
   float bottom, top, stepScale, minStep;
   float maxStep, maxDistance, earlyExit, footprintPerMetre;
@@ -17,6 +18,6 @@ struct MarchParams {
   int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
   int maxTurns, groundSteps, useDroplets, spare0;
   float lightRatio;  // each step toward the sun against the last
-  float airLight;    // share of light that reaches the air below the clouds
-  float spare2, spare3;
+  float ambientFirst;  // m, first step upward
+  float spare1, spare2;
 };

@@ -9,6 +9,16 @@ FN Vec3 sheetSource(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Vec3) su
          xyz(m.ambientGround) * 0.15f;
 }
 
+// The air between the camera and what it sees; from below the clouds a part of it lies in their shade, where light comes
+// from all sides and is white.
+FN void airBefore(IN(Vec3) dir, IN(Real) distance, IN(MarchParams) m, IN(AtmosphereParams) air,
+                  IN(Sampler3) aerialInscatter, IN(Sampler3) aerialTransmittance, OUT(Vec3) inscatter,
+                  OUT(Vec3) through) {
+  lookupAerial(aerialInscatter, aerialTransmittance, air, dir, distance, inscatter, through);
+  if (m.planet.altitude < m.bottom)
+    inscatter = mix(inscatter, xyz(m.shadedAir) * (Vec3(1.0f) - through), Real(m.shadedAir.w));
+}
+
 FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams) m, IN(AtmosphereParams) air,
                   IN(Sampler2) transmittance, IN(Sampler3) aerialInscatter, IN(Sampler3) aerialTransmittance,
                   IN(Sky) sky, OUT(Vec4) colour, OUT(Real) depth, OUT(Real) samples) {
@@ -28,11 +38,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   MarchResult r = march(dir, limit, sunLow, sunHigh, jitter, m, sky);
   Vec3 inscatter = Vec3(0.0f);
   Vec3 through = Vec3(1.0f);
-  lookupAerial(aerialInscatter, aerialTransmittance, air, dir, r.depth, inscatter, through);
-  // The air between the camera and what it sees from below the clouds lies in their shade.
-  float airLight = 1.0f;
-  if (m.planet.altitude < m.bottom) airLight = m.airLight;
-  inscatter = inscatter * airLight;
+  airBefore(dir, r.depth, m, air, aerialInscatter, aerialTransmittance, inscatter, through);
   Real fade = 1.0f - smoothstep(0.55f * m.maxDistance, 0.98f * m.maxDistance, r.depth);
   Real opacity = (1.0f - r.transmittance) * fade;
   Vec3 radiance = (r.radiance * through) * fade + inscatter * opacity;
@@ -69,8 +75,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Real cosSun = max(dot(sun, normal), 0.0f);
   Vec3 lit = irradiance * lookupTransmittanceToSun(transmittance, air, Real(0.0f), dot(sun, normal));
   Vec3 surface = xyz(m.groundAlbedo) * (lit * (cosSun * max(r.ground, 0.0f)) + xyz(m.skyIrradiance)) * 0.318309886f;
-  lookupAerial(aerialInscatter, aerialTransmittance, air, dir, tGround, inscatter, through);
-  inscatter = inscatter * airLight;
+  airBefore(dir, tGround, m, air, aerialInscatter, aerialTransmittance, inscatter, through);
   radiance = select(ground, radiance + (surface * through + inscatter) * kept, radiance);
   depth = select(both(ground, depth >= m.maxDistance), tGround, depth);
   kept = select(ground, Real(0.0f), kept);

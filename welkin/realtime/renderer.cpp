@@ -415,10 +415,13 @@ void Renderer::render(View& view, const Frame& frame) {
   const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != position || v.lastTime != frame.time ||
                      v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
-  const int round = v.still / (v.interleave * v.interleave);
-  const bool valid = v.frames > 0 && s.scene.quality.reprojection;
+  const int turns = v.interleave * v.interleave, round = v.still / turns;
+  const bool begun = v.still == v.frames && v.frames < turns;
+  const History history = v.frames == 0 || !s.scene.quality.reprojection ? History::none
+                          : begun                                        ? History::begun
+                                                                         : History::picture;
   setHistory(params, v.last ? &*v.last : nullptr, position - v.lastPosition,
-             driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), valid,
+             driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), history,
              1.0f / static_cast<float>(round + 1));
   s.frameBuffer.upload(&params, sizeof params);
 

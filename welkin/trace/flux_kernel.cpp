@@ -15,7 +15,6 @@ namespace welkin::HWY_NAMESPACE {
 
 using law::Uint;
 
-
 inline constexpr float kTwoPi = 6.28318531f, kInvPi = 0.318309886f;
 inline constexpr std::size_t kMostLanes = 64;
 inline constexpr float kRouletteBelow = 0.0625f;

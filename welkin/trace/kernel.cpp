@@ -31,8 +31,10 @@ constexpr float kLongStep =
     3500.0f;                 // m: straight air rises 1 m above its tangent over this way, half of what slabs allow
 constexpr int kStrides = 6;  // pieces of empty air before the density is asked again
 constexpr int kFreeScatterings = 128;  // before roulette begins where the throughput does not fall
-constexpr int kMostScatterings = 1 << 20;
-constexpr int kMostLevels = 4;  // of branches of branches
+constexpr int kMostLevels = 4;         // of branches of branches
+// Chance that a scattering asks for the sun: kAsking (sr) times what it would bring, as a share of the sun's
+// irradiance, and no less than kLeastAsking; by measured efficiency.
+constexpr float kAsking = 20.0f, kLeastAsking = 0.05f;
 // Chance of a branch: kBranching times the phase function toward the sun, summed over channels, within limits; by
 // measured efficiency.
 constexpr float kBranching = 1.0f, kLeastBranching = 0.05f, kMostBranching = 0.5f;
@@ -76,6 +78,7 @@ class Paths {
     cloudTop_ = m_.levels.empty() ? -1.0f : m_.top;
     for (const auto& h : sheets_) cloudTop_ = std::max(cloudTop_, h.height + kSheetThickness + 2.0f);
     pathTop_ = scene.airScatters ? air_.thickness : cloudTop_;
+    askScale_ = kAsking / std::max(air_.sunIrradiance.x + air_.sunIrradiance.y + air_.sunIrradiance.z, 1e-20f);
     sun_ = Vec3(air_.sunDirection.x, air_.sunDirection.y, air_.sunDirection.z);
   }
 
@@ -454,8 +457,19 @@ class Paths {
     return select(byAir, mixed, all);
   }
 
+  // Ends the lanes that have had all of their scatterings; answers the others.
+  Mask endSpent(Mask lanes) {
+    const Mask spent = both(lanes, count_ >= s_.mostScatterings);
+    finish(spent);
+    return andNot(lanes, spent);
+  }
+
   // Scatters lanes at p: asks for the sun, and draws the direction in which the path will go on.
   void scatter(Mask lanes, Mask byAir, Real component, Vec3 p, Real h) {
+    lanes = endSpent(lanes);
+    if (noneOf(lanes)) return;
+    byAir = both(byAir, lanes);
+    component = select(lanes, component, Real(-1.0f));
     statistics_.scatterings += countOf(lanes);
     const Mask first = both(lanes, count_ < 0.5f);
     count_ = select(lanes, count_ + 1.0f, count_);
@@ -584,7 +598,8 @@ class Paths {
     return turned(sun_, 0.5f * angle * angle, azimuth);
   }
 
-  // Starts the question how much of `throughput` times the sun's light arrives at place_ from `toSun`.
+  // Starts the question how much of `throughput` times the sun's light arrives at place_ from `toSun`; faint light is
+  // asked for by chance and counts for more.
   void askSun(Mask lanes, Vec3 toSun, Vec3 throughput, Real h) {
     const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + place_;
     const Real altitude = law::max(h, 0.0f);
@@ -592,8 +607,10 @@ class Paths {
     const Vec3 light = law::lookupTransmittance(s_.transmittance, air_, altitude, law::clamp(cosZenith, -1.0f, 1.0f)) *
                        vec4(air_.sunIrradiance);
     const Vec3 value = throughput * light * balance();
-    const Mask seen = both(lanes, both(cosZenith > law::horizonCosine(air_, altitude), sumOf(value) > 0.0f));
-    pending_ = select(seen, value, pending_);
+    const Mask above = both(lanes, both(cosZenith > law::horizonCosine(air_, altitude), sumOf(value) > 0.0f));
+    const Real chance = law::clamp(sumOf(value) * askScale_, Real(kLeastAsking), Real(1.0f));
+    const Mask seen = both(above, next(random_, above) < chance);
+    pending_ = select(seen, value / chance, pending_);
     through_ = select(seen, Real(1.0f), through_);
     aim(seen, toSun);
     t_ = select(seen, Real(0.0f), t_);
@@ -676,7 +693,7 @@ class Paths {
     if (noneOf(at)) return at;
     const Mask dies = both(at, either(next(random_, at) >= survives, strength <= 0.0f));
     beta_ = select(at, beta_ / survives, beta_);
-    return either(dies, both(lanes, count_ > static_cast<float>(kMostScatterings)));
+    return dies;
   }
 
   // Table mode: what lies between the camera and the first thing that the path meets.
@@ -689,6 +706,8 @@ class Paths {
   }
 
   void meetGround(Mask lanes, Vec3 here) {
+    lanes = endSpent(lanes);
+    if (noneOf(lanes)) return;
     const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + here;
     const Vec3 normal = law::normalize(fromCentre);
     seeThroughAir(both(lanes, count_ < 0.5f));
@@ -770,6 +789,7 @@ class Paths {
   law::PlanetParams planet_;
   law::AtmosphereParams air_;
   law::CameraParams camera_;
+  float askScale_ = 1.0f;                   // from light that a scattering would bring to the chance of asking
   float cloudTop_ = 0.0f, pathTop_ = 0.0f;  // m, above which a shadow ray and a path are free
   std::size_t total_, issued_ = 0;
   KernelStatistics statistics_;

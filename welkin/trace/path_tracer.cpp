@@ -11,7 +11,7 @@
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
-#include "welkin/light/phase.hpp"
+#include "welkin/scene/scatterers.hpp"
 
 namespace welkin::trace {
 
@@ -84,23 +84,20 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
   k.aerialInscatter = b.sky.aerialInscatter.view();
   k.aerialTransmittance = b.sky.aerialTransmittance.view();
   for (const Layer& layer : scene.layers)
-    k.components.push_back(
-        {layer.cloud.albedo, b.phaseOf(PhaseTable::mie(computeMiePhase(layer.cloud.dropletDiameter)))});
+    k.components.push_back({layer.cloud.albedo, b.phaseOf(PhaseTable::mie(phaseOf(layer.cloud)))});
   for (const Sheet& sheet : scene.sheets) {
     const bool water = sheet.kind == SheetKind::altocumulus;
-    k.components.push_back({1.0f, b.phaseOf(water ? PhaseTable::mie(computeMiePhase(CloudLayer{}.dropletDiameter))
+    k.components.push_back({1.0f, b.phaseOf(water ? PhaseTable::mie(phaseOf(CloudLayer{}))
                                                   : PhaseTable::henyeyGreenstein(kIceAsymmetry))});
     // sheetOpticalDepth is at most 1.4 times the sheet's own.
     k.sheetBounds.push_back(1.4001f * sheet.opticalDepth / kSheetThickness);
   }
   // Named grids only: those without a file are no clouds.
-  std::vector<const GridCloud*> named;
+  std::vector<GridCloud> named;
   for (const GridCloud& grid : scene.grids)
-    if (!grid.file.empty()) named.push_back(&grid);
-  for (std::size_t i = 0; i < inputs.grids.size(); ++i) {
-    const float diameter = i < named.size() ? named[i]->dropletDiameter : CloudLayer{}.dropletDiameter;
-    k.components.push_back({1.0f, b.phaseOf(PhaseTable::mie(computeMiePhase(diameter)))});
-  }
+    if (!grid.file.empty()) named.push_back(grid);
+  named.resize(inputs.grids.size());
+  for (const GridCloud& grid : named) k.components.push_back({grid.albedo, b.phaseOf(PhaseTable::mie(phaseOf(grid)))});
   k.aerosolPhase = b.phaseOf(PhaseTable::henyeyGreenstein(scene.atmosphere.mieG));
   for (const PhaseTable& table : b.phases) k.phases.push_back(table.view());
   if (!k.components.empty()) {
@@ -116,6 +113,7 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
 
   k.camera = cameraParams(scene.camera, static_cast<double>(settings.width) / settings.height);
   k.sunDisc = settings.sunDisc == SunDisc::seen;
+  if (settings.scatterings > 0) k.mostScatterings = static_cast<float>(settings.scatterings);
 
   totals_.resize(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
   for (int y = 0; y < settings.height; y += kTile)

@@ -37,6 +37,7 @@ struct TraceSettings {
   double seconds = 0.0;  // > 0: stop then
   AirModel air = AirModel::medium;
   SunDisc sunDisc = SunDisc::seen;
+  int scatterings = 0;  // > 0: paths end at the next scattering after so many, which makes the picture too dark
   double checkpointSeconds = 5.0;  // at least this long between two calls of `checkpoint`
   CloudCacheExtent clouds{};       // how finely the weather is cached
 };

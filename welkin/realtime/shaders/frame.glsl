@@ -6,7 +6,7 @@ layout(std140) uniform Frame {
   vec4 uSize;         // history width, height, 1 / width, 1 / height
   vec4 uMarchSize;    // march target width, height, 1 / width, 1 / height
   vec4 uOffset;       // xy: pixel of the block that this frame marches, zw: shift inside the pixel
-  vec4 uTiming;       // x: frame number, y: share of the new sample, z: 1 when history is valid, w: interleave
+  vec4 uTiming;       // x: frame number, y: share of the new sample, z: enum History, w: interleave
   vec4 uDepthInfo;    // x: 1 when the host gives depth, y: P22, z: P32, w: 1 when ndc z = depth
   vec4 uPrevious0;    // rows of the last frame's clip transform of positions relative to this camera; of a panorama, its
                       // right, above and forward

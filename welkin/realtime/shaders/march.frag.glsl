@@ -84,10 +84,12 @@ void main() {
   vec2 uv = (pixel + 0.5 + uOffset.zw) * uSize.zw;
   vec3 ray = rayAt(uv * 2.0 - 1.0);
   float limit = hostDistance(uHostDepth, (pixel + 0.5) * uSize.zw, ray);
-  // The ground's shadows take the same place in all pixels: they have edges of their own, and grain would spoil them.
+  // The ground's shadows take the same place in all pixels of a round: they have edges of their own, and grain would
+  // spoil them.
   vec3 jitter = vec3(0.5);
+  float round_ = floor(uTiming.x / (uTiming.w * uTiming.w));
   if (uOptions.y > 0.5)
-    jitter = vec3(gradientNoise(pixel, uTiming.x), whiteNoise(pixel, uTiming.x), fract(0.5 + 0.61803399 * uTiming.x));
+    jitter = vec3(gradientNoise(pixel, uTiming.x), whiteNoise(pixel, uTiming.x), fract(0.5 + 0.61803399 * round_));
   Sky sky;
   sky.dither = whiteNoise(pixel + 4096.0, uTiming.x * uOptions.y);
   vec4 colour;

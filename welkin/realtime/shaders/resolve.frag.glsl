@@ -24,6 +24,31 @@ vec3 panoramaUv(vec3 eye) {
   return vec3(vec2(turn, rise) / uCamera.angles.zw * 0.5 + 0.5, 1.0);
 }
 
+// The frame in which a pixel is marched for the first time: the inverse of the order in frame_params.cpp.
+int turnOf2(ivec2 p) { return p.x == p.y ? p.x : 3 - p.x; }
+int turnOf(ivec2 pixel) {
+  ivec2 p = pixel % int(uTiming.w);
+  return uTiming.w > 3.0 ? 4 * turnOf2(p & 1) + turnOf2(p >> 1) : turnOf2(p);
+}
+
+// A pixel that no frame has marched yet: the mean of those round it that have been, by a bell as wide as they are apart.
+vec4 filled(ivec2 pixel) {
+  int now = int(uTiming.x), reach = int(uTiming.w) - 1;
+  float narrow = 2.0 * (uTiming.x + 1.0) / (uTiming.w * uTiming.w);
+  vec4 sum = vec4(0.0);
+  float weights = 0.0;
+  for (int y = -reach; y <= reach; ++y)
+    for (int x = -reach; x <= reach; ++x) {
+      ivec2 at = pixel + ivec2(x, y);
+      int turn = turnOf(max(at, 0));
+      if (turn > now || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(uSize.xy)))) continue;
+      float weight = exp(-narrow * float(x * x + y * y));
+      sum += weight * (turn == now ? texelFetch(uMarched, at / int(uTiming.w), 0) : texelFetch(uHistory, at, 0));
+      weights += weight;
+    }
+  return sum / weights;
+}
+
 void main() {
   vec2 pixel = floor(gl_FragCoord.xy);
   ivec2 block = ivec2(pixel / uTiming.w);
@@ -32,6 +57,13 @@ void main() {
   // Where the march target stands for this pixel: its texel centres lie at the marched pixels.
   vec2 marchUv = ((pixel - uOffset.xy) / uTiming.w + 0.5) * uMarchSize.zw;
   vec4 fresh = marched ? texelFetch(uMarched, block, 0) : textureLod(uMarched, marchUv, 0.0);
+  if (uTiming.z > 1.5) {
+    ivec2 at = ivec2(pixel);
+    if (marched) oColour = fresh;
+    else if (turnOf(at) < int(uTiming.x)) oColour = texelFetch(uHistory, at, 0);
+    else oColour = filled(at);
+    return;
+  }
 
   float depth = texelFetch(uMarchedDepth, block, 0).x * 4.0;
   vec3 position = normalize(rayAt(uv * 2.0 - 1.0)) * depth - uWind.xyz;
