@@ -165,25 +165,6 @@ TEST(Coverage, GrowsWithItsParameterInEveryPopulation) {
   }
 }
 
-// Full coverage closes a sheet everywhere: its thinnest place is where the noise is lowest, not a hole that light
-// shines through.
-TEST(Coverage, IsAllOfASheetThatAsksForIt) {
-  const auto thinnest = [](float coverage) {
-    Layer layer;
-    layer.weather.population = Population::uniform;
-    layer.weather.coverage = coverage;
-    float least = 1e9f;
-    for (int seed = 0; seed < 8; ++seed) {
-      const law::WeatherParams w = weatherParams(layer, {}, {}, seed);
-      for (const glm::dvec2& p : scattered(400000.0, 20000, 3)) least = std::min(least, weatherAt(layer, w, p).x);
-    }
-    return least / layer.cloud.thickness;
-  };
-  std::printf("thinnest place of a sheet: %.3f at coverage 1, %.3f at 0.8\n", thinnest(1.0f), thinnest(0.8f));
-  EXPECT_GT(thinnest(1.0f), 0.3f);
-  EXPECT_LT(thinnest(0.8f), 0.01f) << "control: less than that has gaps";
-}
-
 // A map that repeated would correlate to 1 with itself. 74 km hold some 30 independent clouds, so that chance alone
 // gives 0.18 and, of 60 tries, hardly ever 0.6.
 TEST(Weather, DoesNotRepeat) {

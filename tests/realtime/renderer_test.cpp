@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -164,6 +165,45 @@ TEST(Wind, CarriesTheSkyWithACameraThatFloats) {
   EXPECT_LT(displayedPsnr(stage.draw(scene, 1, time), before), 25.0) << "control: other clouds come over the ground";
   scene.camera.position = overGround(way.x, 150.0);
   EXPECT_GT(displayedPsnr(stage.draw(scene, 1, time), before), 34.0);
+}
+
+// Under a closed deep layer no place is lit as if the sun shone from within: the march toward it used to
+// end after 1690 m, inside the layer, which left bright spots where the layer is thin.
+TEST(ClosedLayer, HasNoBrightSpots) {
+  Scene scene = plainScene(LayerShape::profile);
+  Layer& layer = scene.layers[0];
+  layer.cloud = {.genus = Genus::nimbostratus, .base = 700.0f, .thickness = 3400.0f, .extinction = 0.02f};
+  layer.weather.population = Population::uniform;
+  layer.weather.coverage = 1.0f;
+  layer.weather.cellSize = 4000.0f;
+  layer.weather.clusterSize = 24000.0f;
+  layer.profile.lengthScale = 700.0f;
+  layer.profile.erosion = 0.55f;
+  layer.profile.baseCut = 0.0f;
+  layer.profile.baseVariation = 240.0f;
+  layer.profile.ramp = 90.0f;
+  layer.profile.warp = 700.0f;
+  layer.profile.minLength = 300.0f;
+  layer.profile.baseFade = 120.0f;
+  layer.profile.baseRagged = 180.0f;
+  layer.profile.noiseTile = 3000.0f;
+  scene.noise = {};
+  scene.quality = qualityPreset(QualityPreset::ultra);
+  scene.sun.elevation = 0.611f;
+  scene.sun.azimuth = 3.316f;
+  scene.camera.position = {0.0, 0.0, 60.0};
+  scene.camera.heading = 0.0f;
+  scene.camera.pitch = 0.035f;
+  scene.camera.fov = 0.14f;
+  Stage stage(160, 90);
+  const Image light = stage.draw(scene);
+  std::vector<float> sky;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < light.width; ++x) sky.push_back(light.at(x, y)[1]);
+  std::sort(sky.begin(), sky.end());
+  const float median = sky[sky.size() / 2], brightest = sky.back();
+  std::printf("closed layer: median %.4f, brightest %.4f kcd/m^2\n", median, brightest);
+  EXPECT_LT(brightest, 1.35f * median);
 }
 
 // Temporal.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <optional>
 
 #include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
@@ -31,42 +31,35 @@ float smooth(float a, float b, float x) { return law::smoothstep(a, b, x); }
 class LayerBounds {
  public:
   LayerBounds(const law::LayerParams& layer, const law::ClipParams& clip, const WeatherCache& weather,
-              const TextureView& base)
-      : c_(layer), clip_(clip), texels_(weather.main.width), size_(base.width),
-        a_(weather.mainView(), 0, TexelBounds::Kind::planes), b_(weather.mainView(), 1, TexelBounds::Kind::planes),
+              const DensityTextures& noise)
+      : c_(layer), clip_(clip), texels_(weather.main.width), a_(weather.mainView(), 0, TexelBounds::Kind::planes),
+        b_(weather.mainView(), 1, TexelBounds::Kind::planes),
         extraA_(weather.extraView(), 0, TexelBounds::Kind::planes),
-        extraB_(weather.extraView(), 1, TexelBounds::Kind::planes), noise_(base, 0, TexelBounds::Kind::volume) {
-    if (c_.shape != 0) lift_ = std::make_unique<TexelBounds>(base, 1, TexelBounds::Kind::volume);
-  }
-
-  // Of the weather that points of the unsheared box read.
-  WeatherInterval weatherIn(const Box& q) const {
-    const float reach = c_.shape == 0 ? 0.5f * c_.warp * law::saturate((q.high.z - c_.base) * 0.0025f) : 0.0f;
-    const glm::vec2 low = glm::vec2(q.low) - reach, high = glm::vec2(q.high) + reach;
-    WeatherInterval found{};
-    bool any = false;
-    for (int level = 0; level < clip_.count; ++level) {
-      const law::ClipLevel& l = levelOf(clip_, level);
-      const glm::vec2 offset(l.offsetX, l.offsetY);
-      const glm::vec2 uvLow = low * l.inverseSize + offset, uvHigh = high * l.inverseSize + offset;
-      const float inner = l.margin;  // lookups use this level between inner and 1 - inner, the last one everywhere
-      const bool last = level + 1 == clip_.count;
-      if (!last && (uvHigh.x < inner || uvHigh.y < inner || uvLow.x > 1 - inner || uvLow.y > 1 - inner)) continue;
-      const float slice = clip_.firstSlice + static_cast<float>(level);
-      const glm::vec3 from(uvLow * static_cast<float>(texels_), slice), to(uvHigh * static_cast<float>(texels_), slice);
-      const WeatherInterval here{a_.between(from, to), b_.between(from, to), extraA_.between(from, to),
-                                 extraB_.between(from, to)};
-      found = any ? join(found, here) : here;
-      any = true;
-      if (uvLow.x > inner && uvLow.y > inner && uvHigh.x < 1 - inner && uvHigh.y < 1 - inner) break;
+        extraB_(weather.extraView(), 1, TexelBounds::Kind::planes) {
+    if (c_.shape == 0) {
+      base_.emplace(noise.profileBase, 0);
+      warpX_.emplace(noise.profileWarp, 0);
+      warpY_.emplace(noise.profileWarp, 1);
+      billows_.emplace(noise.profileDetail, 0);
+      ridges_.emplace(noise.profileDetail, 1);
+    } else {
+      base_.emplace(noise.nubisBase, 0);
+      lift_.emplace(noise.nubisBase, 1);
     }
-    return found;
   }
 
-  // Of the extinction in a box of unsheared cloud space with this weather.
-  float extinctionIn(const Box& q, const WeatherInterval& w) const {
+  // Of the extinction in a box of unsheared cloud space with the weather that surrounds it. Where that is not 0, a
+  // closer look costs more and bounds more tightly.
+  float extinctionIn(const Box& q, const WeatherInterval& around) const {
     if (q.high.z <= c_.bottom || q.low.z >= c_.top) return 0.0f;
-    return c_.shape == 0 ? profileIn(q, w) : nubisIn(q, w);
+    if (c_.shape != 0) return nubisIn(q, around);
+    return profileIn(q, around, {}) > 0.0f ? profileIn(q, weatherAt(q), leastDetail(q)) : 0.0f;
+  }
+
+  // Of the weather that points of the unsheared box read wherever the warp may lead them.
+  WeatherInterval weatherNear(const Box& q) const {
+    const float reach = c_.shape == 0 ? 0.5f * c_.warp * rise(q.high.z) : 0.0f;
+    return weatherIn(glm::vec2(q.low) - reach, glm::vec2(q.high) + reach);
   }
 
   // The box that unsheared() makes of a box.
@@ -91,14 +84,67 @@ class LayerBounds {
     return {both(x.a, y.a), both(x.b, y.b), both(x.c, y.c), both(x.d, y.d)};
   }
 
-  Interval noiseIn(const TexelBounds& bounds, const Box& q) const {
-    const float edge = static_cast<float>(size_);
-    return bounds.between((q.low * c_.noise.w + glm::vec3(c_.noise)) * edge,
-                          (q.high * c_.noise.w + glm::vec3(c_.noise)) * edge);
+  // Bounds of one channel of a noise.
+  class NoiseBounds {
+   public:
+    NoiseBounds(const Volume& noise, int channel)
+        : edge_(static_cast<float>(noise.width)), bounds_(noise.view(), channel, TexelBounds::Kind::volume) {}
+    // `tiles`: offset in tiles, and 1 / tile.
+    Interval in(const Box& q, const glm::vec4& tiles) const {
+      return bounds_.between((q.low * tiles.w + glm::vec3(tiles)) * edge_,
+                             (q.high * tiles.w + glm::vec3(tiles)) * edge_);
+    }
+
+   private:
+    float edge_;
+    TexelBounds bounds_;
+  };
+
+  // Of profileColumn's sideways warp.
+  float rise(float z) const { return law::saturate((z - c_.base) * 0.0025f); }
+
+  // Of the weather that points of the unsheared box read.
+  WeatherInterval weatherAt(const Box& q) const {
+    const float least = c_.warp * rise(q.low.z), most = c_.warp * rise(q.high.z);
+    const Interval x = warpX_->in(q, c_.warping), y = warpY_->in(q, c_.warping);
+    const auto lowest = [&](float n) { return std::min(least * (n - 0.5f), most * (n - 0.5f)); };
+    const auto highest = [&](float n) { return std::max(least * (n - 0.5f), most * (n - 0.5f)); };
+    return weatherIn(glm::vec2(q.low) + glm::vec2(lowest(x.low), lowest(y.low)),
+                     glm::vec2(q.high) + glm::vec2(highest(x.high), highest(y.high)));
+  }
+
+  // The least of what carves: ridges at the base, billows above.
+  struct Detail {
+    float ridges = 0.0f, billows = 0.0f;
+  };
+  Detail leastDetail(const Box& q) const {
+    return {std::max(1.0f - ridges_->in(q, c_.detailing).high, 0.0f),
+            std::max(1.0f - billows_->in(q, c_.detailing).high, 0.0f)};
+  }
+
+  WeatherInterval weatherIn(const glm::vec2& low, const glm::vec2& high) const {
+    WeatherInterval found{};
+    bool any = false;
+    for (int level = 0; level < clip_.count; ++level) {
+      const law::ClipLevel& l = levelOf(clip_, level);
+      const glm::vec2 offset(l.offsetX, l.offsetY);
+      const glm::vec2 uvLow = low * l.inverseSize + offset, uvHigh = high * l.inverseSize + offset;
+      const float inner = l.margin;  // lookups use this level between inner and 1 - inner, the last one everywhere
+      const bool last = level + 1 == clip_.count;
+      if (!last && (uvHigh.x < inner || uvHigh.y < inner || uvLow.x > 1 - inner || uvLow.y > 1 - inner)) continue;
+      const float slice = clip_.firstSlice + static_cast<float>(level);
+      const glm::vec3 from(uvLow * static_cast<float>(texels_), slice), to(uvHigh * static_cast<float>(texels_), slice);
+      const WeatherInterval here{a_.between(from, to), b_.between(from, to), extraA_.between(from, to),
+                                 extraB_.between(from, to)};
+      found = any ? join(found, here) : here;
+      any = true;
+      if (uvLow.x > inner && uvLow.y > inner && uvHigh.x < 1 - inner && uvHigh.y < 1 - inner) break;
+    }
+    return found;
   }
 
   // profileExtinctionIn with every argument at the end of its range that gives the most.
-  float profileIn(const Box& q, const WeatherInterval& w) const {
+  float profileIn(const Box& q, const WeatherInterval& w, const Detail& detail) const {
     const float low = q.low.z - c_.base - w.b.high, high = q.high.z - c_.base - w.b.low;  // height above the base
     const float height = w.a.high;
     const auto amplitudeOf = [&](float h) { return std::min(c_.lengthScale, c_.lengthFraction * h + c_.minLength); };
@@ -118,12 +164,18 @@ class LayerBounds {
     const float eaten =
         ice ? 0.0f : c_.erosion * (c_.baseErosion + (1.0f - c_.baseErosion) * smooth(0.0f, 260.0f, low));
     if (!ice && profile * least + joint <= -fine) return 0.0f;
-    const Interval n = noiseIn(noise_, q);
+    const Interval n = base_->in(q, c_.noise);
     const float cut = c_.baseCut * (1.0f - law::saturate(high * 0.00333333f));
     const auto metres = [&](float share) { return share * (share > 0.0f ? amplitude : least); };
     float depth = metres(profile - eaten * (1.0f - n.high) - cut);
-    if (ice) depth = std::max(depth, sheet);
-    depth += joint + fine;  // detail only carves, except for the finest
+    const auto carved = [&](float h) {
+      return c_.detail * glm::mix(detail.ridges, detail.billows, law::saturate(h * 0.00285714f));
+    };
+    if (ice)
+      depth = std::max(depth, sheet);  // which detail carves less
+    else
+      depth -= std::min(carved(low), carved(high));
+    depth += joint + fine;  // the finest detail adds, too
     const float ramp = ice ? std::max(c_.inverseRamp, c_.anvilRamp) : c_.inverseRamp;
     const float dense =
         law::saturate(depth * ramp) * smooth(0.0f, c_.baseFade, high + 2.0f * c_.baseRagged * (n.high - 0.5f));
@@ -137,7 +189,7 @@ class LayerBounds {
     const float high = (q.high.z - c_.base - w.d.low) / c_.thickness;
     if (high <= 0.0f || low >= 0.95f) return 0.0f;  // above, every profile is 0
     // remap(x, y - 1, 1, 0, 1) = (x - y + 1) / (2 - y) grows with x, and with y where x > 1 only.
-    const Interval x = noiseIn(noise_, q), y = noiseIn(*lift_, q);
+    const Interval x = base_->in(q, c_.noise), y = lift_->in(q, c_.noise);
     const auto lifted = [&](float lift) { return (x.high - lift + 1.0f) / (2.0f - lift); };
     const float base = std::max(lifted(y.low), lifted(y.high));
     return c_.extinction * law::applyCoverage(std::max(base, 0.0f), w.a.high);
@@ -145,9 +197,9 @@ class LayerBounds {
 
   law::LayerParams c_;
   law::ClipParams clip_;
-  int texels_, size_;
-  TexelBounds a_, b_, extraA_, extraB_, noise_;
-  std::unique_ptr<TexelBounds> lift_;
+  int texels_;
+  TexelBounds a_, b_, extraA_, extraB_;
+  std::optional<NoiseBounds> base_, lift_, warpX_, warpY_, billows_, ridges_;
 };
 
 // The box of cells `from` to `to` of a column, a little enlarged.
@@ -166,7 +218,7 @@ Box boxOf(const MajorantLevel& level, std::size_t column, int from, int to) {
 void addColumn(const LayerBounds& layer, const MajorantLevel& level, std::size_t column, std::vector<float>& sums) {
   for (int first = 0; first < level.layers; first += kWeatherRows) {
     const int end = std::min(first + kWeatherRows, level.layers);
-    const WeatherInterval weather = layer.weatherIn(layer.unsheared(boxOf(level, column, first, end)));
+    const WeatherInterval weather = layer.weatherNear(layer.unsheared(boxOf(level, column, first, end)));
     for (int k = first; k < end; ++k)
       sums[static_cast<std::size_t>(k)] += layer.extinctionIn(layer.unsheared(boxOf(level, column, k, k + 1)), weather);
   }
@@ -218,24 +270,39 @@ class GridBounds {
       low = glm::min(low, v);
       high = glm::max(high, v);
     }
-    // From centres to corners of voxels; a hundredth of one for rounding.
-    const glm::vec3 bricks(grid_.voxels->brickDims());
-    const glm::vec3 from = glm::floor((low + 0.49f) / float(VoxelGrid::kBrick));
-    const glm::vec3 to = glm::floor((high + 0.51f) / float(VoxelGrid::kBrick));
-    for (int c = 0; c < 3; ++c)
-      if (to[c] < 0.0f || from[c] >= bricks[c]) return 0.0f;
-    const glm::ivec3 first(glm::max(from, 0.0f)), last(glm::min(to, bricks - 1.0f));
-    const glm::ivec3& n = grid_.voxels->brickDims();
+    // The voxels that filtering reads there; a hundredth of one for rounding.
+    const VoxelGrid& g = *grid_.voxels;
+    const glm::ivec3 n = g.dims(), bricks = g.brickDims();
+    if (glm::any(glm::lessThan(high, glm::vec3(-0.51f))) || glm::any(glm::greaterThan(low, glm::vec3(n) - 0.49f)))
+      return 0.0f;
+    const glm::ivec3 first = glm::clamp(glm::ivec3(glm::floor(low - 0.01f)), glm::ivec3(0), n - 1);
+    const glm::ivec3 last = glm::clamp(glm::ivec3(glm::floor(high + 0.01f)) + 1, glm::ivec3(0), n - 1);
     float most = 0.0f;
-    for (int z = first.z; z <= last.z; ++z)
-      for (int y = first.y; y <= last.y; ++y)
-        for (int x = first.x; x <= last.x; ++x)
-          most = std::max(most, maxima_[(static_cast<std::size_t>(z) * n.y + static_cast<std::size_t>(y)) * n.x +
-                                        static_cast<std::size_t>(x)]);
+    for (int z = first.z / VoxelGrid::kBrick; z <= last.z / VoxelGrid::kBrick; ++z)
+      for (int y = first.y / VoxelGrid::kBrick; y <= last.y / VoxelGrid::kBrick; ++y)
+        for (int x = first.x / VoxelGrid::kBrick; x <= last.x / VoxelGrid::kBrick; ++x) {
+          const float brick =
+              maxima_[(static_cast<std::size_t>(z) * bricks.y + static_cast<std::size_t>(y)) * bricks.x +
+                      static_cast<std::size_t>(x)];
+          if (brick <= most) continue;
+          const glm::ivec3 corner = glm::ivec3(x, y, z) * VoxelGrid::kBrick, end = corner + VoxelGrid::kBrick - 1;
+          if (glm::all(glm::lessThanEqual(first, corner)) && glm::all(glm::greaterThanEqual(last, end)))
+            most = brick;
+          else
+            most = std::max(most, maximumIn(glm::max(first, corner), glm::min(last, end)));
+        }
     return grid_.extinction * most;
   }
 
  private:
+  float maximumIn(const glm::ivec3& first, const glm::ivec3& last) const {
+    float most = 0.0f;
+    for (int z = first.z; z <= last.z; ++z)
+      for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) most = std::max(most, grid_.voxels->at({x, y, z}));
+    return most;
+  }
+
   const CachedGrid& grid_;
   std::vector<float> maxima_;
 };
@@ -291,8 +358,7 @@ Majorants bakeMajorants(const CloudCache& cache, const WorldBox& gridBox, const 
     const law::LayerParams& layer = cache.layers[i];
     m.bottom = std::min(m.bottom, layer.bottom);
     m.top = std::max(m.top, layer.top);
-    layers.emplace_back(layer, cache.weather.clips[i], cache.weather,
-                        (layer.shape == 0 ? cache.noise.profileBase : cache.noise.nubisBase).view());
+    layers.emplace_back(layer, cache.weather.clips[i], cache.weather, cache.noise);
   }
   std::vector<GridBounds> grids;
   for (const CachedGrid& grid : cache.grids) grids.emplace_back(grid);

@@ -190,9 +190,7 @@ FN Real uniformSheet(IN(Vec2) p, IN(WeatherParams) w, IN(Real) coverage) {
   Real large = latticeFbm(p, w.clusters, seed);
   Real small = latticeFbm(p, w.cells, seed + 7u);
   Real n = 0.6f * large + 0.4f * small;
-  // The noise falls to 0 in a few places, and full coverage closes those too.
-  Real full = coverage * coverage * coverage * coverage;
-  Real threshold = mix(Real(0.78f), Real(0.05f), coverage) - 0.23f * full * full;
+  Real threshold = mix(Real(0.78f), Real(0.05f), coverage);
   return w.thickness * smoothstep(threshold, threshold + 0.18f, n) * (0.55f + 0.9f * (small - 0.25f * large));
 }
 

@@ -14,6 +14,7 @@ struct MarchResult {
 };
 
 const float kLightFirst = 15.0f;   // m, first step toward the sun
+const float kAmbientFirst = 60.0f;
 const float kAmbientRatio = 2.5f;
 
 // A fixed pseudo-random vector in [-1, 1]^3 for the k-th sample of the cone (004 ch. 4.5.3).
@@ -161,7 +162,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     mode = select(light, Real(1.0f), mode);
     Mask startUp = both(sunDone, toMask(m.ambientSteps > 0));
     lightAt = select(startUp, Real(0.0f), lightAt);
-    lightStep = select(startUp, Real(m.ambientFirst), lightStep);
+    lightStep = select(startUp, Real(kAmbientFirst), lightStep);
     k = select(startUp, Real(0.0f), k);
     mode = select(startUp, Real(2.0f), mode);
 

@@ -21,7 +21,7 @@ constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets;
 double closedDepth(const Scene& scene) {
   double depth = 0.0;
   for (const Layer& layer : scene.layers)
-    if (layer.weather.coverage > 0.85f) depth = std::max(depth, 0.4 * layer.cloud.thickness);
+    if (layer.weather.coverage > 0.85f) depth = std::max(depth, 0.9 * layer.cloud.thickness);
   return depth;
 }
 
@@ -31,10 +31,12 @@ double lightReach(double closed, float sunHeight) {
   return std::min(std::max(kReach, closed / std::max(sunHeight, 0.1f)), kFarthest);
 }
 
-// First of `steps` steps upward, m, whose ratio is kAmbientRatio (march.glsl).
-float ambientFirst(double closed, int steps) {
+// Steps upward, at least `steps`, that reach well into a closed layer, but not through its uneven top, where they would
+// give salt; first step and ratio as in march.glsl.
+int ambientSteps(double closed, int steps) {
   constexpr double kFirst = 60.0, kRatio = 2.5;
-  return static_cast<float>(std::max(kFirst, closed * (kRatio - 1.0) / (std::pow(kRatio, std::max(steps, 1)) - 1.0)));
+  while (steps > 0 && steps < 8 && kFirst * (std::pow(kRatio, steps) - 1.0) / (kRatio - 1.0) < 0.48 * closed) ++steps;
+  return steps;
 }
 
 // Ratio of a geometric series of `steps` terms from kLightFirst (march.glsl) that reaches so far.
@@ -128,12 +130,11 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
     m.useDroplets = 1;
   }
   m.lightSteps = q.lightSteps;
-  m.ambientSteps = q.ambientSteps;
+  m.ambientSteps = ambientSteps(closedDepth(scene), q.ambientSteps);
   m.refine = q.refine ? 1 : 0;
   m.maxTurns = kMaxTurns;
   m.groundSteps = 32;
   m.lightRatio = lightRatio(q.lightSteps, lightReach(closedDepth(scene), sunHeight));
-  m.ambientFirst = ambientFirst(closedDepth(scene), q.ambientSteps);
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;
     m.lightSteps = 6;

@@ -18,6 +18,5 @@ struct MarchParams {
   int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
   int maxTurns, groundSteps, useDroplets, spare0;
   float lightRatio;  // each step toward the sun against the last
-  float ambientFirst;  // m, first step upward
-  float spare1, spare2;
+  float spare1, spare2, spare3;
 };
