@@ -106,6 +106,23 @@ TEST(PathTracer, InUniformLightNothingIsSeen) {
   EXPECT_LT(mean.error, 0.02);
 }
 
+// The same furnace under a sky that the library's user paints.
+TEST(PathTracer, TakesASkyOfTheUsersOwn) {
+  class Even : public SkyModel {
+   public:
+    glm::vec3 radiance(const glm::vec3&) const override { return glm::vec3(3.0f); }
+  };
+  Scene scene = withoutAir();
+  scene.sun.elevation = static_cast<float>(-60.0 * kDegree);
+  scene.ground.albedo = glm::vec3(1.0f);
+  const Even sky;
+  PathTracer tracer(scene, {.sky = &sky}, {.width = 32, .height = 18, .samples = 64, .clouds = kCoarse});
+  EXPECT_TRUE(tracer.run({}));
+  const Mean mean = meanOf(tracer.layers());
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean.value[c], 3.0, 4.0 * mean.error + 1e-3);
+  EXPECT_LT(mean.error, 0.03);
+}
+
 // A cloud that scatters nothing is black.
 TEST(PathTracer, BlackCloudsSendNoLight) {
   Scene scene = withoutAir();

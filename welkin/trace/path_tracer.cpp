@@ -74,10 +74,11 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
                             {}, eye, settings.clouds);
   KernelScene& k = b.kernel;
   k.planet = planetParams(eye);
-  b.sky = bakeSky(scene.atmosphere, sunDirection(scene.sun), std::max(k.planet.altitude, 0.0f), scene.ground.albedo);
+  b.sky = bakeSky(scene.atmosphere, sunDirection(scene.sun), std::max(k.planet.altitude, 0.0f), scene.ground.albedo,
+                  inputs.sky);
   k.clouds = &b.clouds;
   k.air = b.sky.params.air;
-  k.airScatters = settings.air == AirModel::medium && scene.atmosphere.model == SkyKind::physical;
+  k.airScatters = settings.air == AirModel::medium && scene.atmosphere.model == SkyKind::physical && !inputs.sky;
   k.airBounds = airBounds(k.air);
   k.transmittance = b.sky.air.transmittance.view();
   k.skyView = b.sky.skyView.view();

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "welkin/atmosphere/tables.hpp"
 #include "welkin/base/image.hpp"
 #include "welkin/base/progress.hpp"
 #include "welkin/scene/scene.hpp"
@@ -46,6 +47,7 @@ struct TraceSettings {
 struct TraceInputs {
   std::span<const Volume> weatherMaps{};  // the authoring picture of every layer that names one, at its index
   std::span<const PlacedGrid> grids{};    // the scene's grids that name a file, in order
+  const SkyModel* sky = nullptr;          // paints the sky in place of atmosphere.model; air comes from tables then
 };
 
 // What a traced picture consists of; all linear, kcd/m^2.
