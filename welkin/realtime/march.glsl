@@ -91,6 +91,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   Real lightAt = 0.0f;
   Real lightStep = 0.0f;
   Real samples = 0.0f;
+  Real points = 0.0f;      // points lit so far
   Real groundTau = 0.0f;
   Real slant = max(dot(sun, up), 0.02f);
   float shell = m.top - m.bottom;
@@ -102,8 +103,8 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     Mask fromGround = both(mode > 2.5f, mode < 3.5f);
     if (noneOf(mode < 3.5f)) break;
 
-    // Where the sample is. Each step of the light has a place of its own, so that their errors cancel.
-    Real within = fract(jitter.y + 0.61803399f * k);
+    // Where the sample is. Each step of the light has a place of its own, for every point anew, so that errors cancel.
+    Real within = fract(jitter.y + 0.61803399f * k + 0.38196601f * points);
     Vec3 offset = sun * (lightAt + lightStep * within);
     if (m.nubis != 0) offset = sun * lightAt + coneKernel(k) * (lightStep * 0.5f * k);
     offset = select(upward, up * (lightAt + lightStep * within), offset);
@@ -200,6 +201,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     depthSum += weight * t;
     depthWeight += weight;
     transmittance = select(shade, transmittance * kept, transmittance);
+    points = select(shade, points + 1.0f, points);
     t = select(shade, t + stride, t);
     lastStep = select(shade, stride, lastStep);
     fineLeft = select(shade, max(fineLeft - 1.0f, 0.0f), fineLeft);
