@@ -129,7 +129,9 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
           .add_option("--samples", options.samples, "path: paths of a pixel; 64 unless --noise or --seconds decides")
           ->type_name("N")
           ->check(CLI::Range(1, 1 << 20)),
-      command.add_option("--noise", options.noise, "path: go on until the noise is this share of the light, e.g. 0.02")
+      command
+          .add_option("--noise", options.noise,
+                      "path: go on until the noise is this share of the way from black to white, e.g. 0.02")
           ->type_name("SHARE")
           ->check(CLI::Range(1e-4, 1.0)),
       command.add_option("--seconds", options.seconds, "path: stop after this time")

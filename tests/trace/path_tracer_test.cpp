@@ -123,6 +123,64 @@ TEST(PathTracer, TakesASkyOfTheUsersOwn) {
   EXPECT_LT(mean.error, 0.03);
 }
 
+// A bright spot of the sky is looked for: on bare ground its light is the integral, and clouds under it look as under a
+// sun of the same place and strength.
+class Spot : public SkyModel {
+ public:
+  static constexpr double kRadius = 0.1;  // rad, where it has fallen to 1/e
+  glm::dvec3 centre;
+  double peak;
+  Spot(const glm::dvec3& c, double illuminance)
+      : centre(c), peak(illuminance / (3.14159265358979 * kRadius * kRadius)) {}
+  glm::vec3 radiance(const glm::vec3& d) const override {
+    const double angle = glm::length(glm::dvec3(d) - centre);
+    return glm::vec3(static_cast<float>(peak * std::exp(-angle * angle / (kRadius * kRadius))));
+  }
+};
+
+TEST(PathTracer, LooksForBrightSpotsOfTheSky) {
+  Scene scene = withoutAir();
+  scene.layers.clear();
+  scene.ground.albedo = glm::vec3(0.5f);
+  scene.camera.pitch = static_cast<float>(-70.0 * kDegree);
+  const glm::dvec3 towards = sunDirection(scene.sun);
+  scene.sun.elevation = static_cast<float>(-60.0 * kDegree);
+  const Spot sky(towards, 100.0);
+  PathTracer tracer(scene, {.sky = &sky}, {.width = 32, .height = 18, .samples = 64, .clouds = kCoarse});
+  EXPECT_TRUE(tracer.run({}));
+  const Mean mean = meanOf(tracer.layers());
+  // The spot is small: its light falls as from its centre, less the mean of the cosine over it.
+  const double exact = 0.5 / 3.14159265358979 * 100.0 * towards.z * std::exp(-0.25 * Spot::kRadius * Spot::kRadius);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean.value[c], exact, 4.0 * mean.error + 0.01 * exact);  // of the sky's table
+  EXPECT_LT(mean.error, 0.015 * exact);  // by chance alone it would be 4 %
+}
+
+TEST(PathTracer, ASpotOfTheSkyLightsCloudsLikeASun) {
+  class Black : public SkyModel {
+   public:
+    glm::vec3 radiance(const glm::vec3&) const override { return glm::vec3(0.0f); }
+  };
+  Scene scene = withoutAir();
+  scene.ground.albedo = glm::vec3(0.0f);
+  scene.layers.front().cloud.phase = ScatteringPhase::henyey_greenstein;
+  scene.layers.front().cloud.asymmetry = 0.3f;
+  const TraceSettings settings{.width = 32, .height = 18, .samples = 96, .clouds = kCoarse};
+  const Black night;
+  PathTracer bySun(scene, {.sky = &night}, settings);
+  EXPECT_TRUE(bySun.run({}));
+  const glm::dvec3 towards = sunDirection(scene.sun);
+  const glm::dvec3 irradiance =
+      bakeSky(scene.atmosphere, sunDirection(scene.sun), 0.0f, scene.ground.albedo).params.air.sunIrradiance;
+  scene.sun.elevation = static_cast<float>(-60.0 * kDegree);
+  const Spot spot(towards, irradiance.y);
+  PathTracer bySpot(scene, {.sky = &spot}, settings);
+  EXPECT_TRUE(bySpot.run({}));
+  EXPECT_EQ(bySpot.statistics().notFinite, 0u);
+  const Mean a = meanOf(bySun.layers()), b = meanOf(bySpot.layers());
+  EXPECT_NEAR(b.value.y, a.value.y, 4.0 * std::hypot(a.error, b.error) + 0.02 * a.value.y);
+  EXPECT_LT(b.error, 0.05 * b.value.y);
+}
+
 // A cloud that scatters nothing is black.
 TEST(PathTracer, BlackCloudsSendNoLight) {
   Scene scene = withoutAir();
@@ -251,7 +309,7 @@ TEST(PathTracer, ScatteredOnceASlabSendsItsIntegral) {
 TEST(PathTracer, GoesOnFromAStateToTheSamePicture) {
   Scene scene;
   const TraceSettings settings{
-      .width = 48, .height = 32, .samples = 96, .noise = 0.4, .air = AirModel::tables, .clouds = kCoarse};
+      .width = 48, .height = 32, .samples = 96, .noise = 0.08, .air = AirModel::tables, .clouds = kCoarse};
   const TraceLayers whole = trace(scene, settings);
   PathTracer first(scene, {}, settings);
   int calls = 0;
@@ -278,6 +336,32 @@ TEST(PathTracer, GoesOnFromAStateToTheSamePicture) {
   EXPECT_THROW(second.restore(cut), Error);
   PathTracer other(scene, {}, {.width = 32, .height = 48, .clouds = kCoarse});
   EXPECT_THROW(other.restore(state), Error);
+}
+
+// The noise asked for is the error that the picture has, on the scale of brightness that the header gives.
+TEST(PathTracer, ReachesTheNoiseAskedFor) {
+  constexpr int kSize = 16, kMany = 512;  // one tile, so its mean is grey
+  constexpr double kNoise = 0.05;
+  TraceSettings settings{.width = kSize, .height = kSize, .samples = kMany, .air = AirModel::tables, .clouds = kCoarse};
+  const TraceLayers longer = trace(Scene{}, settings);
+  settings.noise = kNoise;
+  const TraceLayers found = trace(Scene{}, settings);
+  double mean = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < longer.radiance.pixels.size(); i += 3) {
+    const auto luminance = [i](const TraceLayers& layers) {
+      const float* p = &layers.radiance.pixels[i];
+      return luminanceOf({p[0], p[1], p[2]});
+    };
+    mean += luminance(longer) / (kSize * kSize);
+    square += std::pow(luminance(found) - luminance(longer), 2.0) / (kSize * kSize);
+  }
+  const double samples = found.samples.pixels.front();
+  ASSERT_GT(samples, 32.0);
+  ASSERT_LT(samples, kMany / 2);
+  // Both begin with the same samples.
+  const double error = 0.5 * std::sqrt(0.18 * square / (1.0 - samples / kMany)) / mean;
+  // Bright paths are rare: the error of 256 pixels is known to about a third.
+  EXPECT_NEAR(error, kNoise, 0.35 * kNoise) << samples << " samples";
 }
 
 // Roulette, branches and the order of layers: what was scattered once and the rest add up, with and without clouds.

@@ -15,6 +15,7 @@
 #include "welkin/trace/kernel.hpp"
 #include "welkin/trace/phase_table-inl.hpp"
 #include "welkin/trace/random-inl.hpp"
+#include "welkin/trace/sky_distribution-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace welkin::trace::HWY_NAMESPACE {
@@ -110,9 +111,10 @@ class Paths {
     share_ = Real(1.0f);
     for (Left& left : left_) {
       left.place = left.beta = left.ratio = left.way = Vec3(Real(0.0f));
-      left.count = Real(0.0f);
+      left.count = left.density = Real(0.0f);
     }
     branchBeta_ = branchWay_ = branchRatio_ = Vec3(Real(0.0f));
+    nextDensity_ = branchDensity_ = Real(0.0f);
     beta_ = ratio_ = hero_ = light_ = single_ = pending_ = nextWay_ = Vec3(Real(0.0f));
     through_ = depth_ = clear_ = Real(0.0f);
     count_ = Real(0.0f);
@@ -526,7 +528,7 @@ class Paths {
       density = select(byAir, sumOf(densities) * (1.0f / 3.0f), density);
     }
     nextWay_ = select(lanes, onward, nextWay_);
-    planBranch(lanes, phaseSun, density, [&](Vec3 way, Vec3& phase, Real& pdf) {
+    const auto at = [&](Vec3 way, Vec3& phase, Real& pdf) {
       const Real versine = versineBetween(before, way);
       phase = phaseOf(byAir, component, share, versine);
       pdf = Real(0.0f);
@@ -538,8 +540,9 @@ class Paths {
       const Real pM = target::phasePdf(s_.phases[static_cast<std::size_t>(s_.aerosolPhase)], versine);
       const Vec3 densities = share * law::phaseRayleigh(1.0f - versine) + (Vec3(Real(1.0f)) - share) * pM;
       pdf = select(byAir, sumOf(densities) * (1.0f / 3.0f), pdf);
-    });
-    askSun(lanes, toSun, beta_ * phaseSun, h);
+    };
+    const Real chance = planBranch(lanes, phaseSun, density, at);
+    ask(lanes, toSun, beta_ * phaseSun, h, chance, at);
     beta_ = select(lanes, beta_ * weight * share_, beta_);
     ratio_ = select(lanes, ratio_ * ratioWeight, ratio_);
     const Mask dies = roulette(lanes);
@@ -553,32 +556,44 @@ class Paths {
   // place, drawn in the aureole round the sun, and all that the two find further on is shared by the balance heuristic
   // (Veach and Guibas 1995). Branches branch too, up to kMostLevels. `at` answers phase function and density of a
   // direction, `density` is that of the path's own.
+  // Answers the chance.
   template <class At>
-  void planBranch(Mask lanes, Vec3 phaseSun, Real density, const At& at) {
+  Real planBranch(Mask lanes, Vec3 phaseSun, Real density, const At& at) {
     share_ = Real(1.0f);
+    nextDensity_ = select(lanes, density, nextDensity_);
     const Mask free = both(lanes, level_ < static_cast<float>(kMostLevels) - 0.5f);
-    if (s_.components.empty() || noneOf(free)) return;
-    const PhaseTableView& table = phaseTable(0);
-    const Real chance = law::clamp(sumOf(phaseSun) * kBranching, Real(kLeastBranching), Real(kMostBranching));
-    const Real fromSun = versineBetween(sun_, nextWay_);
-    Real pathLobe(0.0f);
-    if (!noneOf(fromSun < s_.aureole))
-      pathLobe = select(fromSun < s_.aureole, target::phasePdf(table, fromSun) * (1.0f / s_.aureoleShare), pathLobe);
-    share_ = select(free, density / law::max(density + chance * pathLobe, 1e-20f), share_);
+    if (s_.components.empty() || noneOf(free)) return Real(0.0f);
+    const Real chance =
+        select(free, law::clamp(sumOf(phaseSun) * kBranching, Real(kLeastBranching), Real(kMostBranching)), Real(0.0f));
+    const Real both_ = density + chance * aureolePdf(nextWay_);
+    share_ = select(free, density / law::max(both_, 1e-20f), share_);
+    nextDensity_ = select(free, both_, nextDensity_);
     const Mask chosen = both(free, next(random_, free) < chance);
     const Real u = next(random_, chosen), azimuth = next(random_, chosen);
-    if (noneOf(chosen)) return;
+    if (noneOf(chosen)) return chance;
+    const PhaseTableView& table = phaseTable(0);
     const PhaseSample sample = target::samplePhase(table, u * s_.aureoleShare);
     const Real lobe = sample.pdf * (1.0f / s_.aureoleShare);
     const Vec3 way = turned(sun_, sample.versine, azimuth);
     Vec3 phase(Real(0.0f));
     Real pdf = 0.0f;
     at(way, phase, pdf);
-    const Vec3 beta = beta_ * phase * (Real(1.0f) / law::max(pdf + chance * lobe, 1e-20f));
+    const Real density_ = law::max(pdf + chance * lobe, 1e-20f);
+    const Vec3 beta = beta_ * phase * (Real(1.0f) / density_);
     branchBeta_ = select(chosen, beta, branchBeta_);
+    branchDensity_ = select(chosen, density_, branchDensity_);
     branchWay_ = select(chosen, way, branchWay_);
     branchRatio_ = select(chosen, ratio_, branchRatio_);
     branches_ = either(branches_, both(chosen, greatest(beta) > 0.0f));
+    return chance;
+  }
+
+  // Density of branches' directions, 1/sr.
+  Real aureolePdf(Vec3 way) const {
+    const Real fromSun = versineBetween(sun_, way);
+    const Mask near = fromSun < s_.aureole;
+    if (noneOf(near)) return Real(0.0f);
+    return select(near, target::phasePdf(phaseTable(0), fromSun) * (1.0f / s_.aureoleShare), Real(0.0f));
   }
 
   const PhaseTableView& phaseTable(std::size_t component) const {
@@ -599,6 +614,37 @@ class Paths {
     return turned(sun_, 0.5f * angle * angle, azimuth);
   }
 
+  // Asks for light at place_: that of the sun, or, with the share of questions that is the sky's, that of a direction
+  // drawn from it. What a direction of the sky sends comes by that question, by the path and by its branch: all three
+  // share it by the balance heuristic. `chance` is the branch's.
+  template <class At>
+  void ask(Mask lanes, Vec3 toSun, Vec3 sunThroughput, Real h, Real chance, const At& at) {
+    const float share = s_.sky.share;
+    Mask sky = law::toMask(false);
+    if (share > 0.0f) {
+      sky = both(lanes, next(random_, lanes) < share);
+      const Real u = next(random_, sky), v = next(random_, sky), w = next(random_, sky);
+      if (!noneOf(sky)) {
+        const Vec3 way = target::sampleSky(s_.sky, u, v, w);
+        Vec3 phase(Real(0.0f));
+        Real pdf = 0.0f;
+        at(way, phase, pdf);
+        const Real density = share * target::skyPdf(s_.sky, way) + pdf + chance * aureolePdf(way);
+        const Vec3 light = law::lookupSky(s_.skyView, air_, way);
+        const Vec3 value = beta_ * phase * light * (balance() / law::max(density, 1e-20f));
+        question(both(sky, aboveGround(way, h)), way, value);
+      }
+      sunThroughput = sunThroughput * (1.0f / (1.0f - share));
+    }
+    askSun(andNot(lanes, sky), toSun, sunThroughput, h);
+  }
+
+  Mask aboveGround(Vec3 way, Real h) {
+    const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + place_;
+    const Real altitude = law::max(h, 0.0f);
+    return law::dot(fromCentre, way) / (altitude + planet_.radius) > law::horizonCosine(air_, altitude);
+  }
+
   // Starts the question how much of `throughput` times the sun's light arrives at place_ from `toSun`; faint light is
   // asked for by chance and counts for more.
   void askSun(Mask lanes, Vec3 toSun, Vec3 throughput, Real h) {
@@ -613,16 +659,21 @@ class Paths {
     Real chance = law::clamp(sumOf(value) * askScale_, Real(kLeastAsking), Real(1.0f));
     chance = select(count_ < 1.5f, Real(1.0f), chance);
     const Mask seen = both(above, next(random_, above) < chance);
-    pending_ = select(seen, value / chance, pending_);
-    through_ = select(seen, Real(1.0f), through_);
-    aim(seen, toSun);
-    t_ = select(seen, Real(0.0f), t_);
-    end_ = select(seen, Real(kNever), end_);
-    shadow_ = either(shadow_, seen);
-    draw(seen);
+    question(seen, toSun, value / chance);
   }
 
-  // The sun's light arrives.
+  // How much of `value` arrives at place_ from `way`?
+  void question(Mask lanes, Vec3 way, Vec3 value) {
+    pending_ = select(lanes, value, pending_);
+    through_ = select(lanes, Real(1.0f), through_);
+    aim(lanes, way);
+    t_ = select(lanes, Real(0.0f), t_);
+    end_ = select(lanes, Real(kNever), end_);
+    shadow_ = either(shadow_, lanes);
+    draw(lanes);
+  }
+
+  // The light asked for arrives.
   void arrive(Mask lanes) {
     const Vec3 value = pending_ * through_;
     light_ = select(lanes, light_ + value, light_);
@@ -643,12 +694,14 @@ class Paths {
         left.beta = select(here, beta_, left.beta);
         left.ratio = select(here, ratio_, left.ratio);
         left.way = select(here, nextWay_, left.way);
+        left.density = select(here, nextDensity_, left.density);
         left.count = select(here, count_, left.count);
       }
       level_ = select(branches, level_ + 1.0f, level_);
       beta_ = select(branches, branchBeta_, beta_);
       ratio_ = select(branches, branchRatio_, ratio_);
       nextWay_ = select(branches, branchWay_, nextWay_);
+      nextDensity_ = select(branches, branchDensity_, nextDensity_);
       branches_ = andNot(branches_, branches);
       const Mask dies = roulette(branches);
       nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
@@ -679,6 +732,7 @@ class Paths {
       beta_ = select(here, left.beta, beta_);
       ratio_ = select(here, left.ratio, ratio_);
       nextWay_ = select(here, left.way, nextWay_);
+      nextDensity_ = select(here, left.density, nextDensity_);
       count_ = select(here, left.count, count_);
     }
     goOn(back);
@@ -723,11 +777,12 @@ class Paths {
     const Real u = next(random_, lanes), azimuth = next(random_, lanes);
     nextWay_ = select(lanes, turned(normal, 1.0f - law::sqrt(u), azimuth), nextWay_);
     const auto lambert = [&](Vec3 way) { return law::max(law::dot(normal, way), 0.0f) * (1.0f / kPi); };
-    planBranch(lanes, Vec3(lambert(sun_)), lambert(nextWay_), [&](Vec3 way, Vec3& phase, Real& pdf) {
+    const auto at = [&](Vec3 way, Vec3& phase, Real& pdf) {
       pdf = lambert(way);
       phase = Vec3(pdf);
-    });
-    askSun(lanes, toSun, beta_ * (cosine * (1.0f / kPi)), law::altitudeAt(place_, planet_));
+    };
+    const Real chance = planBranch(lanes, Vec3(lambert(sun_)), lambert(nextWay_), at);
+    ask(lanes, toSun, beta_ * (cosine * (1.0f / kPi)), law::altitudeAt(place_, planet_), chance, at);
     beta_ = select(lanes, beta_ * share_, beta_);
     const Mask dies = roulette(lanes);
     nextWay_ = select(dies, Vec3(Real(0.0f)), nextWay_);
@@ -738,7 +793,11 @@ class Paths {
     const Mask first = both(lanes, count_ < 0.5f);
     const Vec3 weight = beta_ * balance();
     if (!s_.airScatters) {
-      const Vec3 sky = weight * law::lookupSky(s_.skyView, air_, way_);
+      Vec3 sky = weight * law::lookupSky(s_.skyView, air_, way_);
+      if (s_.sky.share > 0.0f) {
+        const Real asked = s_.sky.share * target::skyPdf(s_.sky, way_);
+        sky = select(first, sky, sky * (nextDensity_ / law::max(nextDensity_ + asked, 1e-20f)));
+      }
       light_ = select(lanes, light_ + sky, light_);
       single_ = select(both(lanes, count_ < 1.5f), single_ + sky, single_);
     }
@@ -810,11 +869,13 @@ class Paths {
   Real muCloud_, muAir_;      // bounds at the tentative collision, 1/m
   Vec3 beta_, ratio_;         // throughput over the density of the deciding channel; density of each channel over that
   Vec3 hero_;                 // 1 for the deciding channel
-  Vec3 nextWay_;              // of the path while the sun is asked for
+  Vec3 nextWay_;              // of the path while light is asked for
+  Real nextDensity_;          // 1/sr, of drawing it, by path or branch
   Vec3 branchBeta_, branchWay_, branchRatio_;  // of the branch to come
+  Real branchDensity_;
   struct Left {
     Vec3 place, beta, ratio, way;
-    Real count;
+    Real count, density;
   };
   Left left_[kMostLevels];  // what branches left behind, to be taken up again
   Real level_;              // how many

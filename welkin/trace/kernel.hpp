@@ -8,6 +8,7 @@
 #include "welkin/density/cloud_cache.hpp"
 #include "welkin/scene/camera.hpp"
 #include "welkin/trace/phase_table.hpp"
+#include "welkin/trace/sky_distribution.hpp"
 
 namespace welkin::trace {
 
@@ -34,7 +35,8 @@ struct KernelScene {
   law::AtmosphereParams air{};
   bool airScatters = true;  // the air is a medium; else its tables stand for it
   TextureView transmittance, skyView, aerialInscatter, aerialTransmittance;
-  int aerosolPhase = 0;  // table of the air's aerosol
+  SkyDistributionView sky{};  // of skyView; asked where the air does not scatter
+  int aerosolPhase = 0;       // table of the air's aerosol
   float aureole =
       0.0f;  // versine within which the first component's forward peak lies, and its share of the scattering
   float aureoleShare = 1.0f;

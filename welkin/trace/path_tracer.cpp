@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kTile = 16;
 constexpr int kFirstSamples = 16;       // before the first estimate of a tile's noise
+constexpr double kMiddleGrey = 0.18;    // luminance, white = 1
 constexpr std::size_t kGroup = 32;      // tiles between two looks at the clock
 constexpr float kAureole = 2.0f;        // 1/sr, where the forward peak ends: 25 times isotropic scattering
 constexpr double kIceAsymmetry = 0.78;  // .75 to .82 for ice
@@ -50,6 +51,7 @@ struct PathTracer::Baked {
   CloudCache clouds;
   SkyTablesCpu sky;
   std::vector<PhaseTable> phases;
+  SkyDistribution skyLight;
   KernelScene kernel;
 
   int phaseOf(PhaseTable table) {
@@ -84,6 +86,12 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
   k.skyView = b.sky.skyView.view();
   k.aerialInscatter = b.sky.aerialInscatter.view();
   k.aerialTransmittance = b.sky.aerialTransmittance.view();
+  if (!k.airScatters) {
+    const auto luminance = [](const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); };
+    b.skyLight = SkyDistribution([&](const glm::vec3& way) { return luminance(law::lookupSky(k.skyView, k.air, way)); },
+                                 luminance(glm::vec3(k.air.sunIrradiance)));
+    k.sky = b.skyLight.view();
+  }
   for (const Layer& layer : scene.layers)
     k.components.push_back({layer.cloud.albedo, b.phaseOf(PhaseTable::mie(phaseOf(layer.cloud)))});
   for (const Sheet& sheet : scene.sheets) {
@@ -124,25 +132,50 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
 
 PathTracer::~PathTracer() = default;
 
+double PathTracer::meanOf(const Tile& tile) const {
+  double sum = 0.0;
+  for (int y = tile.y; y < tile.y + tile.height; ++y)
+    for (int x = tile.x; x < tile.x + tile.width; ++x) {
+      const Totals& t = totals_[static_cast<std::size_t>(y) * settings_.width + x];
+      sum += 0.2126 * t.radiance[0] + 0.7152 * t.radiance[1] + 0.0722 * t.radiance[2];
+    }
+  return sum / (static_cast<double>(tile.width) * tile.height * std::max(tile.samples, 1));
+}
+
+// Only from first samples, so that a picture taken up again ends as one that was never interrupted.
+void PathTracer::findGrey() {
+  if (grey_ > 0.0) return;
+  std::vector<double> means;
+  for (const Tile& tile : tiles_) {
+    if (tile.samples == 0) return;
+    means.push_back(meanOf(tile));
+  }
+  const auto middle = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
+  std::nth_element(means.begin(), middle, means.end());
+  // Half of the picture may be black.
+  grey_ = *middle > 0.0 ? *middle : std::max(*std::max_element(middle, means.end()), 1e-30);
+}
+
 double PathTracer::errorOf(const Tile& tile) const {
-  double variance = 0.0, sum = 0.0;
+  double variance = 0.0;
   const double n = tile.samples;
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
       const Totals& t = totals_[static_cast<std::size_t>(y) * settings_.width + x];
       const double mean = (0.2126 * t.radiance[0] + 0.7152 * t.radiance[1] + 0.0722 * t.radiance[2]) / n;
       variance += std::max(t.square / n - mean * mean, 0.0) / (n - 1.0);
-      sum += mean;
     }
-  const double pixels = static_cast<double>(tile.width) * tile.height;
-  return sum > 0.0 ? std::sqrt(variance / pixels) / (sum / pixels) : 0.0;
+  const double mean = meanOf(tile);
+  if (mean <= 0.0) return 0.0;
+  // d sqrt(x) = dx / (2 sqrt(x)) for luminance x as a share of white.
+  return 0.5 * std::sqrt(variance / (static_cast<double>(tile.width) * tile.height)) *
+         std::sqrt(kMiddleGrey / (grey_ * mean));
 }
 
 int PathTracer::nextSamples(const Tile& tile) const {
   const int left = settings_.samples - tile.samples;
   if (left <= 0) return 0;
-  if (settings_.noise <= 0.0) return std::min(left, kFirstSamples);
-  if (tile.samples == 0) return std::min(left, kFirstSamples);
+  if (settings_.noise <= 0.0 || tile.samples == 0) return std::min(left, kFirstSamples);
   const double share = errorOf(tile) / settings_.noise;
   if (share <= 1.0) return 0;
   // The error falls with the root of the samples. Never more than there are already: the estimate is noisy itself.
@@ -190,7 +223,7 @@ bool PathTracer::run(const Progress& progress, const std::function<void()>& chec
       done += tile.samples;
       if (tile.done) continue;
       const double most = settings_.samples - tile.samples;
-      const double error = settings_.noise > 0.0 && tile.samples > 0 ? errorOf(tile) / settings_.noise : 0.0;
+      const double error = settings_.noise > 0.0 && grey_ > 0.0 ? errorOf(tile) / settings_.noise : 0.0;
       left += error > 0.0 ? std::clamp(tile.samples * (error * error - 1.0), 0.0, most) : most;
     }
     const double byWork = done + left > 0.0 ? done / (done + left) : 1.0;
@@ -198,11 +231,16 @@ bool PathTracer::run(const Progress& progress, const std::function<void()>& chec
   };
   for (bool any = true; any;) {
     any = false;
+    findGrey();
     for (std::size_t first = 0; first < tiles_.size(); first += kGroup) {
       std::vector<std::pair<Tile*, int>> work;
       for (std::size_t i = first; i < std::min(first + kGroup, tiles_.size()); ++i) {
         Tile& tile = tiles_[i];
         if (tile.done) continue;
+        if (settings_.noise > 0.0 && grey_ == 0.0 && tile.samples > 0) {
+          any = true;  // when all have begun
+          continue;
+        }
         if (const int samples = nextSamples(tile); samples > 0)
           work.emplace_back(&tile, samples);
         else
@@ -253,11 +291,11 @@ TraceLayers PathTracer::layers() const {
 }
 
 namespace {
-constexpr char kMagic[8] = {'W', 'E', 'L', 'K', 'I', 'N', 'T', '1'};
+constexpr char kMagic[8] = {'W', 'E', 'L', 'K', 'I', 'N', 'T', '2'};
 }
 
 std::vector<std::byte> PathTracer::state() const {
-  const std::size_t head = sizeof kMagic + 2 * sizeof(int);
+  const std::size_t head = sizeof kMagic + 2 * sizeof(int) + sizeof(double);
   std::vector<std::byte> bytes(head + tiles_.size() * 2 * sizeof(int) + totals_.size() * sizeof(Totals));
   std::byte* at = bytes.data();
   const auto put = [&](const void* from, std::size_t size) {
@@ -267,6 +305,7 @@ std::vector<std::byte> PathTracer::state() const {
   put(kMagic, sizeof kMagic);
   put(&settings_.width, sizeof(int));
   put(&settings_.height, sizeof(int));
+  put(&grey_, sizeof grey_);
   for (const Tile& tile : tiles_) {
     const int done = tile.done ? 1 : 0;
     put(&tile.samples, sizeof(int));
@@ -290,6 +329,9 @@ void PathTracer::restore(std::span<const std::byte> bytes) {
     throw Error(ErrorKind::badInput, "",
                 fmt::format("the checkpoint is of a picture of {}x{} pixels, not {}x{}", size[0], size[1],
                             settings_.width, settings_.height));
+  take(&grey_, sizeof grey_);
+  if (!(grey_ >= 0.0) || !std::isfinite(grey_))
+    throw Error(ErrorKind::badInput, "", "the checkpoint is damaged; delete it to start anew");
   for (Tile& tile : tiles_) {
     int done = 0;
     take(&tile.samples, sizeof(int));

@@ -32,9 +32,11 @@ enum class SunDisc { seen, leftOut };
 
 struct TraceSettings {
   int width = 1280, height = 720;
-  int samples = 64;    // of a pixel; with `noise` the most
-  double noise = 0.0;  // > 0: each tile of 16 x 16 pixels until its standard error (root mean square over the tile) is
-                       // this share of its mean luminance
+  int samples = 64;  // of a pixel; with `noise` the most
+  // > 0: each tile of 16 x 16 pixels until its standard error (root mean square over the tile) falls below this, as the
+  // eye sees it: on a scale from black, 0, to white, 1, where brightness goes as the root of luminance and the median
+  // tile is middle grey (luminance .18 of white). There an error of x is a share x / .21 of the luminance.
+  double noise = 0.0;
   double seconds = 0.0;  // > 0: stop then
   AirModel air = AirModel::medium;
   SunDisc sunDisc = SunDisc::seen;
@@ -87,6 +89,8 @@ class PathTracer {
     bool done = false;
   };
   void traceTile(Tile& tile, int samples);
+  double meanOf(const Tile& tile) const;  // luminance
+  void findGrey();
   int nextSamples(const Tile& tile) const;  // 0: enough
   double errorOf(const Tile& tile) const;
 
@@ -96,6 +100,7 @@ class PathTracer {
   std::uint32_t seed_;
   std::vector<Totals> totals_;  // of every pixel
   std::vector<Tile> tiles_;
+  double grey_ = 0.0;  // luminance of the median tile after its first samples; 0 until all have them
   KernelStatistics statistics_;
 };
 
