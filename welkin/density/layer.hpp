@@ -59,6 +59,7 @@ struct WeatherSettings {
   float roughness = 0.35f;
   float orientation = 1.5708f;    // rad, compass
   float streetSpacing = 2800.0f;  // m
+  float stretch = 1.0f;
   float anvil = 0.0f;
   std::string map;            // picture: red coverage, green precipitation, blue type, alpha base height
   float mapSize = 60000.0f;   // m
@@ -87,9 +88,11 @@ struct FieldTable<WeatherSettings> {
         field<&WeatherSettings::clustering>("clustering", {0, 1.5}, {0, 1}, "0 evenly scattered, 1 strongly clustered"),
         field<&WeatherSettings::roughness>("roughness", {0, 1}, {}, "warp of the clouds' outlines"),
         field<&WeatherSettings::orientation, kDegrees>("orientation", {0, 360}, {},
-                                                       "compass heading along which streets and fronts run"),
+                                                       "compass heading along which streets, fronts and rolls run"),
         field<&WeatherSettings::streetSpacing, kMetres>("street_spacing", {500, 50000}, {1500, 8000},
                                                         "distance between cloud streets"),
+        field<&WeatherSettings::stretch>("stretch", {1, 12}, {1, 4},
+                                         "length over width of closed cells, which become rolls along the orientation"),
         field<&WeatherSettings::anvil>("anvil", {0, 1}, {}, "how far an anvil spreads from the tallest towers"),
         fileField<&WeatherSettings::map>("map",
                                          "picture that replaces the generator's authoring map: red coverage, green "

@@ -145,7 +145,9 @@ law::WeatherParams weatherParams(const Layer& layer, const glm::dvec2& worldAnch
   const WeatherSettings& s = layer.weather;
   const glm::dvec2 anchor = worldAnchor - driftOffset(drift);
   law::WeatherParams p{};
-  p.cells = square(anchor, s.cellSize);
+  p.cells = s.population == Population::cells
+                ? lattice(anchor, s.cellSize, s.cellSize * s.stretch, s.orientation + kEast)
+                : square(anchor, s.cellSize);
   p.clusters = square(anchor, s.clusterSize);
   p.warp = square(anchor, layer.cloud.shape == LayerShape::profile ? 1200.0 : s.cellSize);
   // Streets and fronts run along `orientation`: the lattice's x axis stands across.

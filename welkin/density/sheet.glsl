@@ -58,11 +58,17 @@ FN Real sheetOpticalDepth(IN(Vec2) p, IN(SheetParams) s) {
     Real veil = 0.75f + 0.25f * ridgedFbm(p + bend * s.warp, s.fibres, 0.55f, 5, seed + 13u);
     return s.opticalDepth * mask * veil;
   }
+  // Grains of two sizes, thin at their edges; here and there in ripples across the fibres; a faint veil between them.
   int grain = 1;
   if (s.kind == kSheetCirrocumulus) grain = 2;
-  Real t = 0.7f * tufts(p + bend * s.warp, s.fibres, grain, seed + 17u) +
-           0.3f * tufts(p + bend * s.warp, s.fibres, 3 * grain, seed + 19u);
-  Real rolls = latticeNoise(p, s.bend, 3, seed + 23u);
-  Real edge = mix(Real(0.8f), Real(0.42f), mask * (0.5f + 0.5f * rolls));
-  return s.opticalDepth * mask * smoothstep(edge, edge + 0.3f, t);
+  Vec2 fine = Vec2(latticeNoise(p, s.fibres, grain, seed + 25u), latticeNoise(p, s.fibres, grain, seed + 27u)) - Vec2(0.5f);
+  Vec2 q = p + bend * s.warp + fine * (0.5f * s.fibres.size / float(grain));
+  Real t = 0.6f * tufts(q, s.fibres, grain, seed + 17u) + 0.4f * tufts(q, s.fibres, 3 * grain, seed + 19u);
+  Real rolls = smoothstep(0.35f, 0.65f, latticeNoise(p, s.bend, 3, seed + 23u));
+  Real phase = latticePoint(q, s.fibres, 1.0f).y * (1.5f * float(grain)) + 2.0f * latticeNoise(p, s.bend, 6, seed + 29u);
+  Real ripple = 0.5f + 0.5f * cos(6.2831853f * fract(phase));
+  t = t * mix(Real(1.0f), 0.55f + 0.45f * ripple, rolls);
+  Real edge = mix(Real(0.8f), Real(0.45f), mask * (0.6f + 0.4f * latticeNoise(p, s.bend, 5, seed + 33u)));
+  Real grains = saturate((t - edge) / (1.0f - edge));
+  return s.opticalDepth * mask * (0.08f + 1.3f * grains * (1.3f - 0.3f * grains) * 0.8f);
 }

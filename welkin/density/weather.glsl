@@ -132,19 +132,21 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     // Tops grow with the cloud's width; type lowers or raises them.
     Real lift = 1.0f;
     if (w.anvil <= 0.0f || scale > 1) lift = exp(0.75f * log(max(relative, 1e-4f)));
-    Real top = w.thickness * growth(place, w) * mix(Real(0.6f), Real(1.4f), map4.z) * lift * (0.8f + 0.2f * u);
-    // Under an anvil the tower is narrower still.
-    float slim = scale == 1 ? mix(1.0f, 0.75f, saturate(w.anvil * 4.0f)) : 1.0f;
-    Real best = dome(dot(d, d), slim * mix(0.8f, 1.0f, w.anvil) * r, mix(0.6f, 0.95f, w.anvil) * top);
+    Real grown = growth(place, w);
+    Real top = w.thickness * grown * mix(Real(0.6f), Real(1.4f), map4.z) * lift * (0.8f + 0.2f * u);
+    // Under an anvil stands a narrow core among many turrets.
+    float tower = scale == 1 ? saturate(w.anvil * 4.0f) : 0.0f;
+    Real best = dome(dot(d, d), mix(mix(0.8f, 1.0f, w.anvil), 0.5f, tower) * r, mix(0.6f, 0.95f, w.anvil) * top);
     Uint s = h2;
-    for (int j = 0; j < 6; ++j) {
+    int domes = tower > 0.0f ? 18 : 6;
+    for (int j = 0; j < domes; ++j) {
       s = nextHash(s);
-      Real away = sqrt(unitFromHash(s)) * 0.68f;
+      Real away = sqrt(unitFromHash(s)) * mix(0.68f, 0.95f, tower);
       s = nextHash(s);
       Real turn = 6.2831853f * unitFromHash(s);
-      Real rs = slim * r * (0.3f + 0.28f * unitFromHash(nextHash(s ^ 0x1B56C4E9u)));
-      Vec2 e = d - Vec2(cos(turn), sin(turn)) * (away * slim * r);
-      best = max(best, dome(dot(e, e), rs, min(top * (1.0f - 0.75f * away), 3.1f * rs)));
+      Real rs = r * (mix(0.3f, 0.17f, tower) + 0.28f * unitFromHash(nextHash(s ^ 0x1B56C4E9u)));
+      Vec2 e = d - Vec2(cos(turn), sin(turn)) * (away * r);
+      best = max(best, dome(dot(e, e), rs, min(top * (1.0f - 0.75f * away), mix(3.1f, 6.0f, tower) * rs)));
     }
     height = max(height, select(here, best, Real(0.0f)));
     // The anvil: a plume that the wind carries off and that widens on its way, blunt to windward.
@@ -153,6 +155,8 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     along = along / (select(along > 0.0f, Real(2.9f), Real(1.4f)) * r);
     across = across / (r * (1.15f + 0.6f * saturate(along)));
     Real plume = max(1.0f - along * along, 0.0f) * max(1.0f - across * across, 0.0f);
+    // Only what has grown to the tropopause spreads there.
+    plume = plume * smoothstep(0.6f, 0.9f, grown);
     anvil = max(anvil, select(here, plume, Real(0.0f)) * (scale == 1 ? w.anvil : 0.0f));
   }
   return Vec2(height, anvil);
@@ -165,11 +169,13 @@ FN Real closedCells(IN(Vec2) p, IN(WeatherParams) w, IN(Real) coverage) {
   Vec2 base = floor(g);
   Real f1 = 9.0f;
   Real f2 = 9.0f;
+  Real u = 0.0f;  // of the cell
   for (int i = 0; i < 9; ++i) {
     Vec2 cell = base + Vec2(float(i % 3 - 1), float(i / 3 - 1));
     Uint h = hashCell2(toInt(cell.x) + w.cells.cellX, toInt(cell.y) + w.cells.cellY, seed);
     Vec2 d = g - cell - Vec2(unitFromHash(h), unitFromHash(nextHash(h)));
     Real q = dot(d, d);
+    u = select(q < f1, unitFromHash(nextHash(nextHash(h))), u);
     f2 = min(f2, max(f1, q));
     f1 = min(f1, q);
   }
@@ -178,6 +184,8 @@ FN Real closedCells(IN(Vec2) p, IN(WeatherParams) w, IN(Real) coverage) {
   Real large = latticeFbm(p, w.clusters, seed + 5u) - 0.5f;
   // The share of the plane with a gap below g is about 1 - exp(-3 g).
   Real open = -0.33f * log(max(coverage, 0.02f)) - 0.15f - 0.8f * w.clustering * large;
+  // Where cells stand apart, some are small and some are gone.
+  open = select(open > 0.0f, open * (0.2f + 1.6f * u), open);
   Real fill = smoothstep(open, open + 0.3f, gap);
   Real rounded = sqrt(max(1.0f - d1 * d1, 0.0f));
   Real vary = 0.75f + 0.5f * latticeFbm(p, w.warp, seed + 9u);

@@ -133,7 +133,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.ambientSteps = ambientSteps(closedDepth(scene), q.ambientSteps);
   m.refine = q.refine ? 1 : 0;
   m.maxTurns = kMaxTurns;
-  m.groundSteps = 32;
+  // A step of the ground's light is no longer than the edges of shadows are wide; without limit it would cost too much.
+  m.groundSteps = static_cast<int>(std::clamp((m.top - m.bottom) / 150.0f, 32.0f, 96.0f));
   m.lightRatio = lightRatio(q.lightSteps, lightReach(closedDepth(scene), sunHeight));
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;
