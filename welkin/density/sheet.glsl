@@ -65,7 +65,7 @@ FN Real sheetOpticalDepth(IN(Vec2) p, IN(SheetParams) s) {
   Vec2 q = p + bend * s.warp + fine * (0.5f * s.fibres.size / float(grain));
   Real t = 0.6f * tufts(q, s.fibres, grain, seed + 17u) + 0.4f * tufts(q, s.fibres, 3 * grain, seed + 19u);
   Real rolls = smoothstep(0.35f, 0.65f, latticeNoise(p, s.bend, 3, seed + 23u));
-  Real phase = latticePoint(q, s.fibres, 1.0f).y * (1.5f * float(grain)) + 2.0f * latticeNoise(p, s.bend, 6, seed + 29u);
+  Real phase = latticePoint(q, s.fibres, 1.0f).y * float(grain + 1) + 2.0f * latticeNoise(p, s.bend, 6, seed + 29u);
   Real ripple = 0.5f + 0.5f * cos(6.2831853f * fract(phase));
   t = t * mix(Real(1.0f), 0.55f + 0.45f * ripple, rolls);
   Real edge = mix(Real(0.8f), Real(0.45f), mask * (0.6f + 0.4f * latticeNoise(p, s.bend, 5, seed + 33u)));
