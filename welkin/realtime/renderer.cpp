@@ -96,7 +96,7 @@ struct Renderer::State {
   std::unique_ptr<WeatherLevels> weather;
   GridAtlas grids;
   std::vector<PlacedGrid> placedGrids;  // that it was made of
-  gl::Program march, resolve, composite, weatherProgram;
+  gl::Program march, resolve, resolveAveraged, resolveFirstRound, composite, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
@@ -110,7 +110,10 @@ struct Renderer::State {
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
     white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
                         texel.data());
-    resolve = gl::Program(gl, "resolve", "", fileText("welkin/realtime/shaders/resolve.frag.glsl"), shaderSource);
+    const auto resolveText = fileText("welkin/realtime/shaders/resolve.frag.glsl");
+    resolve = gl::Program(gl, "resolve", "", resolveText, shaderSource);
+    resolveAveraged = gl::Program(gl, "resolve, averaged", "#define AVERAGE\n", resolveText, shaderSource);
+    resolveFirstRound = gl::Program(gl, "resolve, first round", "#define FIRST_ROUND\n", resolveText, shaderSource);
     composite = gl::Program(gl, "composite", "", fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
     weatherProgram =
         gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
@@ -141,7 +144,7 @@ struct Renderer::State {
   void weatherPass(const glm::dvec3& position, const Drift& drift);
   void marchPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
                  const FrameParams& params);
-  void resolvePass(View::State& view);
+  void resolvePass(View::State& view, const gl::Program& program);
   void compositePass(const View::State& view, const Frame& frame);
 };
 
@@ -363,15 +366,15 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
   rays = static_cast<double>(counts.size());
 }
 
-void Renderer::State::resolvePass(View::State& view) {
+void Renderer::State::resolvePass(View::State& view, const gl::Program& program) {
   const gl::Texture* targets[] = {&view.history[static_cast<std::size_t>(1 - view.current)]};
   framebuffer.target(targets);
-  gl.UseProgram(resolve.id());
-  resolve.bindBlock("Frame", kFrameBlock);
+  gl.UseProgram(program.id());
+  program.bindBlock("Frame", kFrameBlock);
   frameBuffer.bind(kFrameBlock);
-  bind(resolve, "uMarched", view.marched, 0);
-  bind(resolve, "uMarchedDepth", view.marchedDepth, 1);
-  bind(resolve, "uHistory", view.history[static_cast<std::size_t>(view.current)], 2);
+  bind(program, "uMarched", view.marched, 0);
+  bind(program, "uMarchedDepth", view.marchedDepth, 1);
+  bind(program, "uHistory", view.history[static_cast<std::size_t>(view.current)], 2);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   view.current = 1 - view.current;
 }
@@ -432,7 +435,8 @@ void Renderer::render(View& view, const Frame& frame) {
   s.timers.mark("weather");
   s.marchPass(v, frame, position, drift, params);
   s.timers.mark("march");
-  s.resolvePass(v);
+  const bool average = s.scene.quality.averageHistory && history != History::none;
+  s.resolvePass(v, history == History::begun ? s.resolveFirstRound : average ? s.resolveAveraged : s.resolve);
   s.timers.mark("resolve");
   s.compositePass(v, frame);
   s.timers.mark("composite");

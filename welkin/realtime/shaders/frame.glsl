@@ -13,7 +13,7 @@ layout(std140) uniform Frame {
   vec4 uPrevious1;
   vec4 uPrevious3;
   vec4 uWind;         // xyz: way of the wind since the last frame, w: pre-exposure
-  vec4 uOptions;      // x: average history, y: jitter, z: what is behind (frame_params.cpp), w: rad of a target pixel
+  vec4 uOptions;      // y: jitter, z: what is behind (frame_params.cpp), w: rad of a target pixel
   vec4 uTarget;       // target width, height, 1 / width, 1 / height
 };
 

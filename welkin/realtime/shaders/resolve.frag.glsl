@@ -1,4 +1,6 @@
-// Resolve pass: the new pixels of this frame and the reprojected old ones become the cloud history.
+// Resolve pass: the new pixels of this frame and the reprojected old ones become the cloud history. Variants, since the
+// software driver runs all of a shader: AVERAGE softens what is old, FIRST_ROUND fills the pixels that have not been
+// marched since the view began.
 #include "welkin/base/law.glsl"
 #include "welkin/realtime/shaders/frame.glsl"
 
@@ -9,11 +11,14 @@ uniform sampler2D uHistory;
 layout(location = 0) out vec4 oColour;
 
 vec4 historyAt(vec2 uv) {
-  if (uOptions.x < 0.5) return textureLod(uHistory, uv, 0.0);
+#ifndef AVERAGE
+  return textureLod(uHistory, uv, 0.0);
+#else
   vec4 sum = vec4(0.0);
   for (int y = -1; y <= 1; ++y)
     for (int x = -1; x <= 1; ++x) sum += textureLod(uHistory, uv + vec2(x, y) * uSize.zw, 0.0);
   return sum * (1.0 / 9.0);
+#endif
 }
 
 // Where the last picture showed a direction in its axes, in [0, 1]; z is not positive where it did not.
@@ -24,6 +29,7 @@ vec3 panoramaUv(vec3 eye) {
   return vec3(vec2(turn, rise) / uCamera.angles.zw * 0.5 + 0.5, 1.0);
 }
 
+#ifdef FIRST_ROUND
 // The frame in which a pixel is marched for the first time: the inverse of the order in frame_params.cpp.
 int turnOf2(ivec2 p) { return p.x == p.y ? p.x : 3 - p.x; }
 int turnOf(ivec2 pixel) {
@@ -48,6 +54,7 @@ vec4 filled(ivec2 pixel) {
     }
   return sum / weights;
 }
+#endif
 
 void main() {
   vec2 pixel = floor(gl_FragCoord.xy);
@@ -57,14 +64,12 @@ void main() {
   // Where the march target stands for this pixel: its texel centres lie at the marched pixels.
   vec2 marchUv = ((pixel - uOffset.xy) / uTiming.w + 0.5) * uMarchSize.zw;
   vec4 fresh = marched ? texelFetch(uMarched, block, 0) : textureLod(uMarched, marchUv, 0.0);
-  if (uTiming.z > 1.5) {
-    ivec2 at = ivec2(pixel);
-    if (marched) oColour = fresh;
-    else if (turnOf(at) < int(uTiming.x)) oColour = texelFetch(uHistory, at, 0);
-    else oColour = filled(at);
-    return;
-  }
-
+#ifdef FIRST_ROUND
+  ivec2 at = ivec2(pixel);
+  if (marched) oColour = fresh;
+  else if (turnOf(at) < int(uTiming.x)) oColour = texelFetch(uHistory, at, 0);
+  else oColour = filled(at);
+#else
   float depth = texelFetch(uMarchedDepth, block, 0).x * 4.0;
   vec3 position = normalize(rayAt(uv * 2.0 - 1.0)) * depth - uWind.xyz;
   vec4 p = vec4(position, 1.0);
@@ -76,4 +81,5 @@ void main() {
   vec4 old = historyAt(before);
   vec4 kept = known ? old : fresh;
   oColour = marched ? mix(kept, fresh, known ? uTiming.y : 1.0) : kept;
+#endif
 }
