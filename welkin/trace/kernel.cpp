@@ -31,8 +31,9 @@ constexpr float kNever = 1e12f;  // m
 constexpr float kLongStep =
     3500.0f;                 // m: straight air rises 1 m above its tangent over this way, half of what slabs allow
 constexpr int kStrides = 6;  // pieces of empty air before the density is asked again
-constexpr int kFreeScatterings = 128;  // before roulette begins where the throughput does not fall
-constexpr int kMostLevels = 4;         // of branches of branches
+constexpr int kFreeScatterings = 2048;  // before roulette begins where the throughput does not fall: what it spares of
+                                        // long paths comes back as few very bright ones
+constexpr int kMostLevels = 4;          // of branches of branches
 // Chance that a scattering asks for the sun: kAsking (sr) times what it would bring, as a share of the sun's
 // irradiance, and no less than kLeastAsking; the first one always. By measured efficiency.
 constexpr float kAsking = 20.0f, kLeastAsking = 0.05f;
@@ -745,7 +746,7 @@ class Paths {
     if (!s_.components.empty() && !noneOf(both(lanes, strength < 0.25f)))
       strength *= 1.0f + (4.0f * kPi) * target::phasePdf(phaseTable(0), versineBetween(sun_, nextWay_));
     Real survives = law::clamp(strength * 4.0f, Real(0.05f), Real(1.0f));
-    survives = select(count_ > static_cast<float>(kFreeScatterings), law::min(survives, Real(0.98f)), survives);
+    survives = select(count_ > static_cast<float>(kFreeScatterings), law::min(survives, Real(0.995f)), survives);
     const Mask at = both(lanes, survives < 1.0f);
     if (noneOf(at)) return at;
     const Mask dies = both(at, either(next(random_, at) >= survives, strength <= 0.0f));

@@ -19,6 +19,7 @@ SkyDistribution::SkyDistribution(const std::function<float(const glm::vec3&)>& l
   constexpr int kRows = SkyDistributionView::kRows, kColumns = SkyDistributionView::kColumns, kCells = kRows * kColumns;
   std::vector<double> weight(kCells);
   double sum = 0.0;
+  std::size_t next = 0;
   for (int row = 0; row < kRows; ++row)
     for (int column = 0; column < kColumns; ++column) {
       double cell = 0.0;
@@ -30,7 +31,7 @@ SkyDistribution::SkyDistribution(const std::function<float(const glm::vec3&)>& l
           const float l = luminance({s * std::cos(azimuth), s * std::sin(azimuth), z});
           if (l > 0.0f && std::isfinite(l)) cell += 0.25 * l;
         }
-      weight[static_cast<std::size_t>(row * kColumns + column)] = cell;
+      weight[next++] = cell;
       sum += cell;
     }
   if (!(sum > 0.0)) return;
