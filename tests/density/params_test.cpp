@@ -225,6 +225,28 @@ TEST(Populations, AFrontPartsTheLand) {
   EXPECT_LT(sides(), 1.5) << "control";
 }
 
+// Towers ahead of a front's line stay low, and only what has grown to the tropopause spreads there.
+TEST(Populations, AFrontHasAnvilsOnItsLineOnly) {
+  Layer layer;
+  layer.weather.population = Population::front;
+  layer.weather.anvil = 1.0f;
+  layer.weather.coverage = 0.7f;
+  layer.weather.cellSize = 12000.0f;
+  layer.weather.clusterSize = 10000.0f;
+  const law::WeatherParams w = weatherParams(layer, {}, {}, 3);
+  int far = 0, on = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const glm::vec2 p(400.0f * static_cast<float>(i % 200 - 100), 400.0f * static_cast<float>(i / 200 - 100));
+    if (weatherAt(layer, w, glm::dvec2(p)).z < 0.05f) continue;
+    // The growth that this asks for ends .17 from the line; an anvil reaches another 6 km, .3, from its tower, and the
+    // warp of outlines moves either by less than a kilometre.
+    const float across = std::abs(law::acrossFront(p, w));
+    (across > 0.6f ? far : on) += 1;
+  }
+  EXPECT_EQ(far, 0);
+  EXPECT_GT(on, 100);
+}
+
 // Each pair differs by a tenth of the mean height or of the number of edges along a line.
 TEST(Populations, AreDifferentSkies) {
   std::vector<double> heights, edges;

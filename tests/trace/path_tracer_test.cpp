@@ -103,7 +103,8 @@ TEST(PathTracer, InUniformLightNothingIsSeen) {
   for (const float t : layers.transmittance.pixels) clear += t / (32.0 * 18.0);
   EXPECT_LT(clear, 0.9);  // there are clouds to be seen
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean.value[c], 2.0, 4.0 * mean.error + 1e-4);
-  EXPECT_LT(mean.error, 0.02);
+  // No path may be worth much more than another: roulette of long ones made it 0.0047.
+  EXPECT_LT(mean.error, 0.003);
 }
 
 // The same furnace under a sky that the library's user paints.

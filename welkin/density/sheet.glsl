@@ -70,5 +70,5 @@ FN Real sheetOpticalDepth(IN(Vec2) p, IN(SheetParams) s) {
   t = t * mix(Real(1.0f), 0.55f + 0.45f * ripple, rolls);
   Real edge = mix(Real(0.8f), Real(0.45f), mask * (0.6f + 0.4f * latticeNoise(p, s.bend, 5, seed + 33u)));
   Real grains = saturate((t - edge) / (1.0f - edge));
-  return s.opticalDepth * mask * (0.08f + 1.3f * grains * (1.3f - 0.3f * grains) * 0.8f);
+  return s.opticalDepth * mask * (0.08f + 1.04f * grains * (1.3f - 0.3f * grains));
 }

@@ -156,7 +156,7 @@ FN Vec2 cloudsOfClass(IN(Vec2) p, IN(WeatherParams) w, IN(Sampler2) map, IN(int)
     across = across / (r * (1.15f + 0.6f * saturate(along)));
     Real plume = max(1.0f - along * along, 0.0f) * max(1.0f - across * across, 0.0f);
     // Only what has grown to the tropopause spreads there.
-    plume = plume * smoothstep(0.6f, 0.9f, grown);
+    plume = plume * smoothstep(0.75f, 0.95f, grown);
     anvil = max(anvil, select(here, plume, Real(0.0f)) * (scale == 1 ? w.anvil : 0.0f));
   }
   return Vec2(height, anvil);

@@ -566,9 +566,9 @@ class Paths {
     if (s_.components.empty() || noneOf(free)) return Real(0.0f);
     const Real chance =
         select(free, law::clamp(sumOf(phaseSun) * kBranching, Real(kLeastBranching), Real(kMostBranching)), Real(0.0f));
-    const Real both_ = density + chance * aureolePdf(nextWay_);
-    share_ = select(free, density / law::max(both_, 1e-20f), share_);
-    nextDensity_ = select(free, both_, nextDensity_);
+    const Real joint = density + chance * aureolePdf(nextWay_);
+    share_ = select(free, density / law::max(joint, 1e-20f), share_);
+    nextDensity_ = select(free, joint, nextDensity_);
     const Mask chosen = both(free, next(random_, free) < chance);
     const Real u = next(random_, chosen), azimuth = next(random_, chosen);
     if (noneOf(chosen)) return chance;
@@ -579,10 +579,10 @@ class Paths {
     Vec3 phase(Real(0.0f));
     Real pdf = 0.0f;
     at(way, phase, pdf);
-    const Real density_ = law::max(pdf + chance * lobe, 1e-20f);
-    const Vec3 beta = beta_ * phase * (Real(1.0f) / density_);
+    const Real drawn = law::max(pdf + chance * lobe, 1e-20f);
+    const Vec3 beta = beta_ * phase * (Real(1.0f) / drawn);
     branchBeta_ = select(chosen, beta, branchBeta_);
-    branchDensity_ = select(chosen, density_, branchDensity_);
+    branchDensity_ = select(chosen, drawn, branchDensity_);
     branchWay_ = select(chosen, way, branchWay_);
     branchRatio_ = select(chosen, ratio_, branchRatio_);
     branches_ = either(branches_, both(chosen, greatest(beta) > 0.0f));
@@ -633,25 +633,24 @@ class Paths {
         const Real density = share * target::skyPdf(s_.sky, way) + pdf + chance * aureolePdf(way);
         const Vec3 light = law::lookupSky(s_.skyView, air_, way);
         const Vec3 value = beta_ * phase * light * (balance() / law::max(density, 1e-20f));
-        question(both(sky, aboveGround(way, h)), way, value);
+        const Real altitude = law::max(h, 0.0f);
+        question(both(sky, zenithCosine(way, altitude) > law::horizonCosine(air_, altitude)), way, value);
       }
       sunThroughput = sunThroughput * (1.0f / (1.0f - share));
     }
     askSun(andNot(lanes, sky), toSun, sunThroughput, h);
   }
 
-  Mask aboveGround(Vec3 way, Real h) {
+  // Of a way from place_, which lies at `altitude`.
+  Real zenithCosine(Vec3 way, Real altitude) const {
     const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + place_;
-    const Real altitude = law::max(h, 0.0f);
-    return law::dot(fromCentre, way) / (altitude + planet_.radius) > law::horizonCosine(air_, altitude);
+    return law::dot(fromCentre, way) / (altitude + planet_.radius);
   }
 
   // Starts the question how much of `throughput` times the sun's light arrives at place_ from `toSun`; faint light is
   // asked for by chance and counts for more.
   void askSun(Mask lanes, Vec3 toSun, Vec3 throughput, Real h) {
-    const Vec3 fromCentre = vec4(planet_.up) * Real(planet_.up.w) + place_;
-    const Real altitude = law::max(h, 0.0f);
-    const Real cosZenith = law::dot(fromCentre, toSun) / (altitude + planet_.radius);
+    const Real altitude = law::max(h, 0.0f), cosZenith = zenithCosine(toSun, altitude);
     Vec3 light = vec4(air_.sunIrradiance);
     if (hasAir_)
       light = light * law::lookupTransmittance(s_.transmittance, air_, altitude, law::clamp(cosZenith, -1.0f, 1.0f));

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <mutex>
 
+#include "welkin/atmosphere/params.hpp"
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
@@ -45,6 +46,8 @@ std::vector<float> airBounds(const law::AtmosphereParams& air) {
 
 struct PathTracer::Totals {
   double radiance[3] = {}, single[3] = {}, square = 0, clear = 0, depth = 0;
+
+  double luminance() const { return 0.2126 * radiance[0] + 0.7152 * radiance[1] + 0.0722 * radiance[2]; }
 };
 
 struct PathTracer::Baked {
@@ -87,7 +90,6 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
   k.aerialInscatter = b.sky.aerialInscatter.view();
   k.aerialTransmittance = b.sky.aerialTransmittance.view();
   if (!k.airScatters) {
-    const auto luminance = [](const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); };
     b.skyLight = SkyDistribution([&](const glm::vec3& way) { return luminance(law::lookupSky(k.skyView, k.air, way)); },
                                  luminance(glm::vec3(k.air.sunIrradiance)));
     k.sky = b.skyLight.view();
@@ -136,8 +138,7 @@ double PathTracer::meanOf(const Tile& tile) const {
   double sum = 0.0;
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      const Totals& t = totals_[static_cast<std::size_t>(y) * settings_.width + x];
-      sum += 0.2126 * t.radiance[0] + 0.7152 * t.radiance[1] + 0.0722 * t.radiance[2];
+      sum += totals_[static_cast<std::size_t>(y) * settings_.width + x].luminance();
     }
   return sum / (static_cast<double>(tile.width) * tile.height * std::max(tile.samples, 1));
 }
@@ -162,7 +163,7 @@ double PathTracer::errorOf(const Tile& tile) const {
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
       const Totals& t = totals_[static_cast<std::size_t>(y) * settings_.width + x];
-      const double mean = (0.2126 * t.radiance[0] + 0.7152 * t.radiance[1] + 0.0722 * t.radiance[2]) / n;
+      const double mean = t.luminance() / n;
       variance += std::max(t.square / n - mean * mean, 0.0) / (n - 1.0);
     }
   const double mean = meanOf(tile);
@@ -278,7 +279,7 @@ TraceLayers PathTracer::layers() const {
           layers.direct.at(x, y)[c] = static_cast<float>(t.single[c] / n);
           layers.multiple.at(x, y)[c] = static_cast<float>((t.radiance[c] - t.single[c]) / n);
         }
-        const double mean = (0.2126 * t.radiance[0] + 0.7152 * t.radiance[1] + 0.0722 * t.radiance[2]) / n;
+        const double mean = t.luminance() / n;
         *layers.variance.at(x, y) =
             n > 1.0 ? static_cast<float>(std::max(t.square / n - mean * mean, 0.0) / (n - 1.0)) : 0.0f;
         *layers.transmittance.at(x, y) = static_cast<float>(t.clear / n);

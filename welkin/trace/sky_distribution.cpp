@@ -38,7 +38,10 @@ SkyDistribution::SkyDistribution(const std::function<float(const glm::vec3&)>& l
   double bright = 0.0;
   for (const double w : weight) bright += std::max(w - kEven * sum / kCells, 0.0) * (4.0 * kPi / kCells);
   share_ = kMostShare * static_cast<float>(bright / (bright + sun + 1e-30));
-  if (share_ < kLeastShare) share_ = 0.0f;
+  if (share_ < kLeastShare) {
+    share_ = 0.0f;  // no table, then
+    return;
+  }
   for (double& w : weight) w = std::max(w * kCells / sum, static_cast<double>(kFloor));
   const double mean = std::accumulate(weight.begin(), weight.end(), 0.0) / kCells;
   for (const double w : weight) density_.push_back(static_cast<float>(w / mean / (4.0 * kPi)));

@@ -13,7 +13,7 @@ struct SkyDistributionView {
   const float* keep = nullptr;                      // chance that a cell, once chosen, stands for itself
   const int* alias = nullptr;                       // what it stands for otherwise
   const float* density = nullptr;                   // 1/sr
-  float share = 0.0f;                               // of the questions for light that go to the sky, not the sun
+  float share = 0.0f;  // of the questions for light that go to the sky, not the sun; 0: no table
 };
 
 class SkyDistribution {
