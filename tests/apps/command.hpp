@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -36,6 +37,18 @@ inline Outcome run(const std::string& arguments, const std::string& environment 
   Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, slurp(out), slurp(err)};
   std::filesystem::remove_all(folder);
   return outcome;
+}
+
+// For `environment`: files may grow to so many half kilobytes, then the disk is full.
+inline std::string fullDisk(int blocks) { return "ulimit -f " + std::to_string(blocks) + "; trap '' XFSZ;"; }
+
+// What lies in a folder, sorted, each with a space after it.
+inline std::string listing(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  std::string text;
+  for (const std::string& name : names) text += name + " ";
+  return text;
 }
 
 }  // namespace welkin::test

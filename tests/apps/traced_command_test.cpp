@@ -86,5 +86,36 @@ TEST_F(TracedCommand, RefusesOptionsOfTheOtherRenderer) {
   EXPECT_FALSE(fs::exists(path("a.exr")));
 }
 
+TEST_F(TracedCommand, AFullDiskLeavesTheOldFiles) {
+  sky();
+  for (const char* name : {"a.exr", "a.png"}) {
+    std::ofstream(path(name)) << "old";
+    const std::string before = test::listing(folder);
+    const test::Outcome o = render(name, "--size 96x48 --samples 1", test::fullDisk(1));
+    EXPECT_EQ(o.code, 1) << name;
+    EXPECT_NE(o.err.find(path(name) + ": cannot be written"), std::string::npos) << o.err;
+    EXPECT_EQ(test::slurp(path(name)), "old");
+    EXPECT_EQ(test::listing(folder), before);
+  }
+}
+
+// The checkpoint that stands stays good: with room on the disk the picture goes on from it.
+TEST_F(TracedCommand, AFullDiskLeavesTheOldCheckpoint) {
+  const std::string options = "--size 96x48 --samples 4 --checkpoint-every 0 --checkpoint " + path("state");
+  const test::Outcome none = render("a.exr", options, test::fullDisk(16));
+  EXPECT_EQ(none.code, 1);
+  EXPECT_NE(none.err.find(path("state") + ": cannot be written: "), std::string::npos) << none.err;
+  EXPECT_EQ(test::listing(folder), "clear.sky.toml ");
+
+  // Interrupted at once it leaves a state behind.
+  const std::string longer = "--size 96x48 --samples 100000 --checkpoint-every 0 --checkpoint " + path("state");
+  ASSERT_EQ(render("a.exr", longer, "timeout --signal=INT --preserve-status 2").code, 0);
+  const std::string old = test::slurp(path("state"));
+  ASSERT_GT(old.size(), 8192u);
+  EXPECT_EQ(render("b.exr", longer, test::fullDisk(16)).code, 1);
+  EXPECT_TRUE(test::slurp(path("state")) == old);
+  EXPECT_EQ(test::listing(folder), "a.exr clear.sky.toml state ");
+}
+
 }  // namespace
 }  // namespace welkin

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "tests/apps/command.hpp"
+#include "welkin/io/nanovdb.hpp"
 #include "welkin/io/vdb.hpp"
 
 namespace welkin {
@@ -23,10 +25,11 @@ class VdbCommand : public testing::Test {
   void TearDown() override { fs::remove_all(folder); }
   std::string path(const std::string& name) const { return (folder / name).string(); }
   // A coarse bake of a small, cloudy box.
-  test::Outcome bake(const std::string& arguments) const {
+  test::Outcome bake(const std::string& arguments, const std::string& before = "") const {
     const bool elsewhere = arguments.find("--region") != std::string::npos;
     return test::run(std::string("vdb stratocumulus -q --set noise.profile.base_size=32 ") +
-                     (elsewhere ? "" : "--voxel 50 --region 0,0,2000,1200,600,1800 ") + arguments);
+                         (elsewhere ? "" : "--voxel 50 --region 0,0,2000,1200,600,1800 ") + arguments,
+                     before);
   }
   const fs::path folder = fs::temp_directory_path() / ("welkin_vdb_command_" + std::to_string(getpid()));
 };
@@ -138,6 +141,19 @@ TEST_F(VdbCommand, RefusesWhatItCannotDo) {
   fails("--region -60000,-60000,60000,60000 --voxel 2" + out, 3, "--tiles");
   fails("--set layer.0.extinction=0" + out, 3, "nothing to put into a volume");
   EXPECT_FALSE(fs::exists(path("x.vdb")));
+}
+
+TEST_F(VdbCommand, AFullDiskLeavesTheOldFiles) {
+  for (const std::string name : {"a.vdb", "a.nvdb", "a.vol"}) {
+    if (name == "a.nvdb" && !hasNanoVdb()) continue;
+    std::ofstream(path(name)) << "old";
+    const std::string before = test::listing(folder);
+    const test::Outcome o = bake("-o " + path(name), test::fullDisk(16));
+    EXPECT_EQ(o.code, 1) << name;
+    EXPECT_NE(o.err.find(path(name) + ": cannot be written as "), std::string::npos) << o.err;
+    EXPECT_EQ(test::slurp(path(name)), "old");
+    EXPECT_EQ(test::listing(folder), before);
+  }
 }
 
 }  // namespace

@@ -1,15 +1,15 @@
 #include "welkin/io/file.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/io/small_disk.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/exr.hpp"
+#include "welkin/io/hdr.hpp"
 
 namespace welkin {
 namespace {
@@ -31,23 +31,6 @@ class Files : public testing::Test {
 
   fs::path folder = fs::path(testing::TempDir()) /
                     (std::string("welkin_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-};
-
-// While it lives no file may grow beyond `most` bytes: what a full disk does, without one.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t most) {
-    std::signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{most, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~SmallDisk() { setrlimit(RLIMIT_FSIZE, &old_); }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit old_{};
 };
 
 // While it lives the superuser, who may write everywhere, is nobody.
@@ -92,18 +75,31 @@ TEST_F(Files, AFailingWriterLeavesTheOldFile) {
   EXPECT_EQ(count(), 1u);
 }
 
+// Pixels that no compression makes small.
+Image noise(int channels) {
+  Image image(96, 96, channels);
+  std::uint32_t state = 1;
+  for (float& v : image.pixels) v = static_cast<float>((state = state * 1664525u + 1013904223u) >> 8);
+  return image;
+}
+
 TEST_F(Files, AFullDiskLeavesTheOldFile) {
-  writeFileAtomically(file("a.exr"), "old");
-  {
-    const SmallDisk disk(4096);
-    EXPECT_EQ(failure([&] { writeFileAtomically(file("a.exr"), std::string(10000, 'x')); }),
-              file("a.exr") + ": cannot be written: File too large");
-    Image noise(64, 64, 3);
-    for (std::size_t i = 0; i < noise.pixels.size(); ++i) noise.pixels[i] = static_cast<float>(i * i % 1013);
-    EXPECT_NE(failure([&] { saveExr(file("a.exr"), noise, ExrPrecision::full); }), "succeeded");
-  }
-  EXPECT_EQ(readFile(file("a.exr"), 10), "old");
-  EXPECT_EQ(count(), 1u);
+  test::expectOldFileOnFullDisk(file("a"),
+                                [](const std::string& path) { writeFileAtomically(path, std::string(30000, 'x')); });
+  const test::SmallDisk disk(100);
+  EXPECT_EQ(failure([&] { writeFileAtomically(file("a"), std::string(101, 'x')); }),
+            file("a") + ": cannot be written: File too large");
+}
+
+TEST_F(Files, AFullDiskLeavesTheOldPicture) {
+  const Image picture = noise(3);
+  test::expectOldFileOnFullDisk(file("a.exr"),
+                                [&](const std::string& path) { saveExr(path, picture, ExrPrecision::full); });
+  Image halves = picture;
+  for (float& v : halves.pixels) v /= 1024.0f;
+  test::expectOldFileOnFullDisk(file("a.exr"),
+                                [&](const std::string& path) { saveExr(path, halves, ExrPrecision::half); });
+  test::expectOldFileOnFullDisk(file("a.hdr"), [&](const std::string& path) { saveHdr(path, picture); });
 }
 
 TEST_F(Files, DevicesAreWrittenToNotReplaced) {

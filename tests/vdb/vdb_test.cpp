@@ -10,9 +10,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/io/small_disk.hpp"
 #include "tests/vdb/volumes.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/file.hpp"
+#include "welkin/io/mitsuba_volume.hpp"
+#include "welkin/io/nanovdb.hpp"
 #include "welkin/noise/volume.hpp"
 
 namespace welkin {
@@ -208,6 +211,19 @@ TEST(Vdb, AFailedWriteLeavesTheOldFile) {
   grid.set({1, 2, 3}, 70000.0f);
   EXPECT_THROW(saveVdb(path, grid, {}, VolumePrecision::half), Error);
   EXPECT_EQ(readFile(path, 10), "old");
+}
+
+TEST(Vdb, AFullDiskLeavesTheOldFile) {
+  const VoxelGrid ball = test::ball({40, 32, 24}, {}, glm::dvec3(10.0));
+  test::expectOldFileOnFullDisk(test::temporary("full.vdb"),
+                                [&](const std::string& path) { saveVdb(path, ball, {}, VolumePrecision::full); });
+  test::expectOldFileOnFullDisk(test::temporary("full.vdb"),
+                                [&](const std::string& path) { saveVdb(path, ball, {}, VolumePrecision::half); });
+  if (hasNanoVdb())
+    test::expectOldFileOnFullDisk(test::temporary("full.nvdb"),
+                                  [&](const std::string& path) { saveNanoVdb(path, ball); });
+  test::expectOldFileOnFullDisk(test::temporary("full.vol"),
+                                [&](const std::string& path) { saveMitsubaVolume(path, ball); });
 }
 
 }  // namespace

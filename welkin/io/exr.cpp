@@ -17,7 +17,7 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
-#include <limits>
+#include <ostream>
 #include <span>
 
 #include "welkin/base/error.hpp"
@@ -80,8 +80,20 @@ Imf::Header headerOf(const Image& image, const ExrMetadata& metadata) {
   return header;
 }
 
+// OpenEXR's own stream does not notice that its last bytes could not be stored.
+class Stream : public Imf::OStream {
+ public:
+  explicit Stream(std::ostream& to) : Imf::OStream("picture"), to_(to) {}
+  void write(const char from[], int count) override { to_.write(from, count); }
+  std::uint64_t tellp() override { return static_cast<std::uint64_t>(static_cast<std::streamoff>(to_.tellp())); }
+  void seekp(std::uint64_t at) override { to_.seekp(static_cast<std::streamoff>(at)); }
+
+ private:
+  std::ostream& to_;
+};
+
 template <class T>
-void write(const std::string& path, const Image& image, const ExrMetadata& metadata, Imf::PixelType type,
+void write(std::ostream& stream, const Image& image, const ExrMetadata& metadata, Imf::PixelType type,
            std::span<const T> values) {
   Imf::Header header = headerOf(image, metadata);
   Imf::FrameBuffer buffer;
@@ -91,7 +103,8 @@ void write(const std::string& path, const Image& image, const ExrMetadata& metad
     buffer.insert(names[c], Imf::Slice(type, reinterpret_cast<char*>(const_cast<T*>(values.data() + c)),
                                        sizeof(T) * image.channels, sizeof(T) * image.channels * image.width));
   }
-  Imf::OutputFile file(path.c_str(), header, 1);
+  Stream out(stream);
+  Imf::OutputFile file(out, header, 1);
   file.setFrameBuffer(buffer);
   file.writePixels(image.height);
 }
@@ -177,18 +190,12 @@ Image read(std::string_view bytes, const std::string& path) {
 
 void saveExr(const std::string& path, const Image& image, ExrPrecision precision, const ExrMetadata& metadata) {
   requireValues(path, image, precision);
-  writeFileAtomically(path, [&](const std::string& temporary) {
-    try {
-      if (precision == ExrPrecision::half) {
-        std::vector<half> values(image.pixels.begin(), image.pixels.end());
-        write<half>(temporary, image, metadata, Imf::HALF, values);
-      } else {
-        write<float>(temporary, image, metadata, Imf::FLOAT, image.pixels);
-      }
-    } catch (const Error&) {
-      throw;
-    } catch (const std::exception& e) {
-      throw Error(ErrorKind::failed, path, std::string("cannot be written as OpenEXR: ") + e.what());
+  writeStreamAtomically(path, "OpenEXR", [&](std::ostream& stream) {
+    if (precision == ExrPrecision::half) {
+      std::vector<half> values(image.pixels.begin(), image.pixels.end());
+      write<half>(stream, image, metadata, Imf::HALF, values);
+    } else {
+      write<float>(stream, image, metadata, Imf::FLOAT, image.pixels);
     }
   });
 }

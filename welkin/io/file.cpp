@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "welkin/base/error.hpp"
@@ -118,6 +119,26 @@ void requireWritable(const std::string& path) {
 
 void writeFileAtomically(const std::string& path, std::string_view bytes) {
   writeFileAtomically(path, [&](const std::string& temporary) { writeBytes(temporary, bytes); });
+}
+
+void writeStreamAtomically(const std::string& path, const char* format,
+                           const std::function<void(std::ostream& stream)>& write) {
+  writeFileAtomically(path, [&](const std::string& temporary) {
+    const auto refuse = [&](const char* why) {
+      throw Error(ErrorKind::failed, path, fmt::format("cannot be written as {}: {}", format, why));
+    };
+    constexpr const char* kFull = "no space is left, or the file is too large";
+    std::ofstream stream(temporary, std::ios::binary);
+    try {
+      write(stream);
+      stream.close();
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& e) {
+      refuse(stream ? e.what() : kFull);
+    }
+    if (!stream) refuse(kFull);
+  });
 }
 
 }  // namespace welkin

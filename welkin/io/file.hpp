@@ -2,6 +2,7 @@
 // Files as bytes: reading whole ones, and replacing them so that a reader never sees half of one.
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,11 @@ std::string readFile(const std::string& path, std::size_t most);
 // anything fails, nothing is left behind, an old file is untouched, and Error (failed) says why.
 void writeFileAtomically(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 void writeFileAtomically(const std::string& path, std::string_view bytes);
+
+// The same for libraries that write to streams: what a stream holds back until it is closed is looked after, and
+// whatever the library throws becomes an Error (failed): "cannot be written as FORMAT: ...".
+void writeStreamAtomically(const std::string& path, const char* format,
+                           const std::function<void(std::ostream& stream)>& write);
 
 // Throws the Error (failed) that writing the file would end in, when its folder is missing or may not be written to:
 // before hours of work, not after.

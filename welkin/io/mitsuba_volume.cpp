@@ -2,9 +2,8 @@
 
 #include <bit>
 #include <cstring>
-#include <fstream>
+#include <ostream>
 
-#include "welkin/base/error.hpp"
 #include "welkin/io/file.hpp"
 
 namespace welkin {
@@ -26,8 +25,7 @@ void saveMitsubaVolume(const std::string& path, const VoxelGrid& grid) {
     header.low[c] = static_cast<float>(grid.origin()[c]);
     header.high[c] = static_cast<float>(high[c]);
   }
-  writeFileAtomically(path, [&](const std::string& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
+  writeStreamAtomically(path, "a Mitsuba volume", [&](std::ostream& file) {
     file.write(reinterpret_cast<const char*>(&header), sizeof header);
     std::vector<float> row(static_cast<std::size_t>(grid.dims().x));
     for (int z = 0; z < grid.dims().z && file; ++z)
@@ -35,7 +33,6 @@ void saveMitsubaVolume(const std::string& path, const VoxelGrid& grid) {
         for (int x = 0; x < grid.dims().x; ++x) row[static_cast<std::size_t>(x)] = grid.at({x, y, z});
         file.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(sizeof(float) * row.size()));
       }
-    if (!file.flush()) throw Error(ErrorKind::failed, path, "cannot be written: no space is left, or it is too large");
   });
 }
 

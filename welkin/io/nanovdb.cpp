@@ -6,7 +6,7 @@
 #include <nanovdb/util/GridBuilder.h>
 #include <nanovdb/util/IO.h>
 
-#include <fstream>
+#include <ostream>
 
 #include "welkin/io/file.hpp"
 #include "welkin/io/volume_lattice.hpp"
@@ -35,16 +35,10 @@ void saveNanoVdb(const std::string& path, const VoxelGrid& grid, const std::stri
             for (int i = 0; i < VoxelGrid::kBrick; ++i, ++value)
               if (*value != 0.0f) accessor.setValue({low.x + i, low.y + j, low.z + k}, *value);
       }
-  writeFileAtomically(path, [&](const std::string& temporary) {
-    try {
-      const glm::dvec3 t = lattice.translation;
-      const auto handle = builder.getHandle<>(voxel.x, nanovdb::Vec3d(t.x, t.y, t.z), name);
-      std::ofstream file(temporary, std::ios::binary);
-      nanovdb::io::writeGrid(file, handle, nanovdb::io::Codec::NONE);
-      if (!file.flush()) throw std::runtime_error("no space is left, or the file is too large");
-    } catch (const std::exception& e) {
-      throw Error(ErrorKind::failed, path, std::string("cannot be written as NanoVDB: ") + e.what());
-    }
+  writeStreamAtomically(path, "NanoVDB", [&](std::ostream& stream) {
+    const glm::dvec3 t = lattice.translation;
+    const auto handle = builder.getHandle<>(voxel.x, nanovdb::Vec3d(t.x, t.y, t.z), name);
+    nanovdb::io::writeGrid(stream, handle, nanovdb::io::Codec::NONE);
   });
 }
 

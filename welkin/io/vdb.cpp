@@ -119,6 +119,14 @@ struct Directory : openvdb::io::Archive {
   }
 };
 
+// OpenVDB's own File does not notice that its last bytes could not be stored; this writes the same to a stream of ours.
+struct Writer : openvdb::io::Archive {
+  void save(std::ostream& stream, const openvdb::GridBase::ConstPtr& grid) const {
+    stream.exceptions(std::ios::badbit);  // ends at the first block that cannot be stored, not after gigabytes
+    Archive::write(stream, openvdb::GridCPtrVec{grid}, true);
+  }
+};
+
 openvdb::FloatGrid::Ptr readGrid(openvdb::io::File& file, const std::string& path, const std::string& name) {
   std::string chosen, others;
   for (auto i = file.beginName(); i != file.endName(); ++i) {
@@ -274,15 +282,7 @@ void saveVdb(const std::string& path, const VoxelGrid& voxels, std::span<const V
   grid->setSaveFloatAsHalf(precision == VolumePrecision::half);
   grid->setCreator("Welkin");
   for (const VolumeNote& n : notes) note(*grid, n);
-  writeFileAtomically(path, [&](const std::string& temporary) {
-    try {
-      openvdb::io::File file(temporary);
-      file.write(openvdb::GridCPtrVec{grid});
-      file.close();
-    } catch (const std::exception& e) {
-      throw Error(ErrorKind::failed, path, std::string("cannot be written as OpenVDB: ") + e.what());
-    }
-  });
+  writeStreamAtomically(path, "OpenVDB", [&](std::ostream& stream) { Writer().save(stream, grid); });
 }
 
 VdbGrid loadVdb(const std::string& path, const std::string& name, const IsolationLimits& limits, int margin) {
