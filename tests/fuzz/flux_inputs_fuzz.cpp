@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include <random>
 
+#include "tests/fuzz/mutation.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/file.hpp"
 #include "welkin/io/raw_grid.hpp"
@@ -17,40 +17,20 @@ namespace {
 
 constexpr int kTexts = 10000;
 
-void mutate(std::string& text, std::mt19937& random) {
-  static const char* const kPieces[] = {"nan", "inf", "-1",  "1e999", "1e-999", "0",  "180", "\n", " ", ",",
-                                        "#",   "{",   "[[[", "]",     "}",      "\"", "\\u", "\0", ":", "4294967296"};
-  const std::size_t at = text.empty() ? 0 : random() % text.size();
-  switch (random() % 6) {
-    case 0:
-      if (!text.empty()) text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
-      break;
-    case 1:
-      text.resize(at);
-      break;
-    case 2:
-      text.erase(at, 1 + random() % 8);
-      break;
-    case 3:
-      text.insert(at, text.substr(at, random() % 40));
-      break;
-    case 4:  // another digit
-      if (const std::size_t digit = text.find_first_of("0123456789", at); digit != std::string::npos)
-        text[digit] = static_cast<char>('0' + random() % 10);
-      break;
-    default:
-      text.insert(at, kPieces[random() % std::size(kPieces)]);
-  }
-}
+constexpr std::string_view kPieces[] = {"nan", "inf",       "-1", "1e999", "1e-999", "0",
+                                        "180", "\n",        " ",  ",",     "#",      "{",
+                                        "[[[", "]",         "}",  "\"",    "\\u",    std::string_view("\0", 1),
+                                        ":",   "4294967296"};
+const test::Mutation kMutations[] = {test::anotherDigit, test::piece(kPieces)};
 
 // Counts the mutations of a text that `read` does not refuse.
 template <class Read>
 int countRead(const std::string& text, const Read& read) {
-  std::mt19937 random(77);
+  test::Random random(77);
   int good = 0;
   for (int i = 0; i < kTexts; ++i) {
     std::string mutated = text;
-    for (std::size_t k = 1 + random() % 3; k > 0; --k) mutate(mutated, random);
+    for (std::size_t k = 1 + random() % 3; k > 0; --k) test::mutate(mutated, random, kMutations);
     try {
       read(mutated);
       ++good;

@@ -2,12 +2,12 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <random>
 
+#include "tests/fuzz/mutation.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/exr.hpp"
 #include "welkin/io/file.hpp"
@@ -23,39 +23,21 @@ constexpr int kFiles = 1000;  // it is slow, and there is one thread
 constexpr int kFiles = 10000;
 #endif
 
-void mutate(std::string& bytes, std::mt19937& random) {
-  // Half of them in the first 400 bytes, where the headers are.
-  const std::size_t reach = random() % 2 ? bytes.size() : std::min<std::size_t>(bytes.size(), 400);
-  const std::size_t at = reach == 0 ? 0 : random() % reach;
-  switch (random() % 6) {
-    case 0:
-      if (!bytes.empty()) bytes[at] = static_cast<char>(bytes[at] ^ (1 << random() % 8));
-      break;
-    case 1:
-      if (!bytes.empty()) bytes[at] = static_cast<char>(random());
-      break;
-    case 2:
-      bytes.resize(at);
-      break;
-    case 3:
-      bytes.erase(at, 1 + random() % 16);
-      break;
-    case 4:
-      bytes.insert(at, bytes.substr(at, 1 + random() % 64));
-      break;
-    default: {  // a number that is too large, or negative
-      static constexpr std::uint32_t kNumbers[] = {0x7fffffff, 0xffffffff, 0x80000000, 0x00ffffff, 0xffffff7f, 0};
-      if (at + 4 <= bytes.size()) std::memcpy(bytes.data() + at, &kNumbers[random() % 6], 4);
-    }
-  }
+// A number that is too large, or negative.
+void anotherNumber(std::string& bytes, std::size_t at, test::Random& random) {
+  static constexpr std::uint32_t kNumbers[] = {0x7fffffff, 0xffffffff, 0x80000000, 0x00ffffff, 0xffffff7f, 0};
+  if (at + 4 <= bytes.size()) std::memcpy(bytes.data() + at, &kNumbers[random() % 6], 4);
 }
+const test::Mutation kMutations[] = {anotherNumber};
+constexpr std::size_t kHeader = 400;  // bytes, about: half of the mutations go there
 
 void fuzz(const std::vector<std::string>& seeds, const std::function<Image(const std::string&)>& parse) {
-  std::mt19937 random(11);
+  test::Random random(11);
   int refused = 0;
   for (int i = 0; i < kFiles; ++i) {
     std::string bytes = seeds[random() % seeds.size()];
-    for (unsigned k = 1 + random() % 3; k > 0; --k) mutate(bytes, random);
+    for (unsigned k = 1 + random() % 3; k > 0; --k)
+      test::mutate(bytes, random, kMutations, random() % 2 ? std::string::npos : kHeader);
     try {
       const Image image = parse(bytes);
       ASSERT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width) * image.height * image.channels);

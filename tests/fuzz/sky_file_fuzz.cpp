@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <random>
 
+#include "tests/fuzz/mutation.hpp"
 #include "tests/scene/random_scene.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/sky_file.hpp"
@@ -19,115 +19,90 @@ constexpr int kFiles = 10000;  // it is slow, and there is one thread
 constexpr int kFiles = 100000;
 #endif
 
-std::size_t below(std::mt19937& random, std::size_t n) { return n == 0 ? 0 : random() % n; }
+using test::below;
 
-const std::vector<std::string>& tokens() {
-  static const std::vector<std::string> kTokens{"[",
-                                                "]",
-                                                "[[",
-                                                "]]",
-                                                "{",
-                                                "}",
-                                                "=",
-                                                ".",
-                                                ",",
-                                                "\"",
-                                                "'",
-                                                "\"\"\"",
-                                                "'''",
-                                                "\\",
-                                                "#",
-                                                "\n",
-                                                "\r\n",
-                                                "\t",
-                                                std::string(1, '\0'),
-                                                "\xff",
-                                                "\xef\xbb\xbf",
-                                                "nan",
-                                                "-inf",
-                                                "1e999",
-                                                "-0",
-                                                "0x7fffffffffffffff",
-                                                "9223372036854775808",
-                                                "1_000",
-                                                "1979-05-27T07:32:00Z",
-                                                "true",
-                                                "[[layer]]\n",
-                                                "[[sheet]]\n",
-                                                "[layer.weather]\n",
-                                                "[quality]\n",
-                                                "layer = []\n",
-                                                "format = 1\n",
-                                                "[sun]\n",
-                                                "coverage",
-                                                "preset = \"ultra\"\n",
-                                                "map = \"x.png\"\n",
-                                                "[layer.0]\n",
-                                                "sun.elevation = 3\n",
-                                                "\\u0000",
-                                                "\\U00110000"};
-  return kTokens;
-}
+constexpr std::string_view kTokens[] = {"[",
+                                        "]",
+                                        "[[",
+                                        "]]",
+                                        "{",
+                                        "}",
+                                        "=",
+                                        ".",
+                                        ",",
+                                        "\"",
+                                        "'",
+                                        "\"\"\"",
+                                        "'''",
+                                        "\\",
+                                        "#",
+                                        "\n",
+                                        "\r\n",
+                                        "\t",
+                                        std::string_view("\0", 1),
+                                        "\xff",
+                                        "\xef\xbb\xbf",
+                                        "nan",
+                                        "-inf",
+                                        "1e999",
+                                        "-0",
+                                        "0x7fffffffffffffff",
+                                        "9223372036854775808",
+                                        "1_000",
+                                        "1979-05-27T07:32:00Z",
+                                        "true",
+                                        "[[layer]]\n",
+                                        "[[sheet]]\n",
+                                        "[layer.weather]\n",
+                                        "[quality]\n",
+                                        "layer = []\n",
+                                        "format = 1\n",
+                                        "[sun]\n",
+                                        "coverage",
+                                        "preset = \"ultra\"\n",
+                                        "map = \"x.png\"\n",
+                                        "[layer.0]\n",
+                                        "sun.elevation = 3\n",
+                                        "\\u0000",
+                                        "\\U00110000"};
 
-void mutate(std::string& text, std::mt19937& random) {
-  const std::size_t at = below(random, text.size());
-  switch (random() % 10) {
-    case 0:  // flip a bit
-      if (!text.empty()) text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
-      break;
-    case 1:
-      text.resize(at);
-      break;
-    case 2:
-      text.insert(at, tokens()[below(random, tokens().size())]);
-      break;
-    case 3:
-      text.erase(at, 1 + below(random, 12));
-      break;
-    case 4: {  // say a piece twice
-      const std::string piece = text.substr(at, below(random, 80));
-      text.insert(below(random, text.size()), piece);
-      break;
-    }
-    case 5: {  // swap two lines
-      const std::size_t a = text.find('\n', at), b = text.find('\n', below(random, text.size()));
-      if (a != std::string::npos && b != std::string::npos && a < b) {
-        const std::string line = text.substr(a, text.find('\n', a + 1) - a);
-        text.erase(a, line.size());
-        text.insert(std::min(b, text.size()), line);
-      }
-      break;
-    }
-    case 6: {  // another number
-      const std::size_t digit = text.find_first_of("0123456789", at);
-      const std::string number = std::to_string(random() % 2 ? random() % 10 : random());
-      if (digit != std::string::npos) text.replace(digit, 1, number);
-      break;
-    }
-    case 7: {  // deep nesting
-      static constexpr std::array<const char*, 4> kOpen{"[", "{a=", "a.", "[["};
-      const char* open = kOpen[below(random, kOpen.size())];
-      std::string deep;
-      for (std::size_t i = below(random, 600); i > 0; --i) deep += open;
-      text.insert(at, deep);
-      break;
-    }
-    case 8:
-      text.insert(std::min(text.find('\n', at), text.size()), " # remark");
-      break;
-    default:
-      if (!text.empty()) text[at] = static_cast<char>(random());
-  }
+void sayElsewhere(std::string& text, std::size_t at, test::Random& random) {
+  const std::string piece = text.substr(at, below(random, 80));
+  text.insert(below(random, text.size()), piece);
 }
+void moveLine(std::string& text, std::size_t at, test::Random& random) {
+  const std::size_t a = text.find('\n', at), b = text.find('\n', below(random, text.size()));
+  if (a == std::string::npos || b == std::string::npos || a >= b) return;
+  const std::string line = text.substr(a, text.find('\n', a + 1) - a);
+  text.erase(a, line.size());
+  text.insert(std::min(b, text.size()), line);
+}
+void anotherNumber(std::string& text, std::size_t at, test::Random& random) {
+  const std::size_t digit = text.find_first_of("0123456789", at);
+  if (digit != std::string::npos) text.replace(digit, 1, std::to_string(random()));
+}
+void nest(std::string& text, std::size_t at, test::Random& random) {
+  static constexpr std::array<const char*, 4> kOpen{"[", "{a=", "a.", "[["};
+  const char* open = kOpen[below(random, kOpen.size())];
+  std::string deep;
+  for (std::size_t i = below(random, 600); i > 0; --i) deep += open;
+  text.insert(at, deep);
+}
+void remark(std::string& text, std::size_t at, test::Random&) {
+  text.insert(std::min(text.find('\n', at), text.size()), " # remark");
+}
+const test::Mutation kMutations[] = {test::piece(kTokens), sayElsewhere, moveLine, test::anotherDigit,
+                                     anotherNumber,        nest,         remark};
 
 TEST(SkyFileFuzz, EveryMutationIsReadOrRefusedWithItsPlace) {
   std::vector<std::string> seeds;
   for (unsigned i = 0; i < 40; ++i) seeds.push_back(writeSky(test::randomScene(i, 0.1)));
-  std::mt19937 random(2024);
+  test::Random random(2024);
   int read = 0;
   for (int i = 0; i < kFiles; ++i) {
     std::string text = seeds[below(random, seeds.size())];
-    for (std::size_t k = 1 + (random() % 3 == 0 ? below(random, 4) : 0); k > 0; --k) mutate(text, random);
+    for (std::size_t k = 1 + (random() % 3 == 0 ? below(random, 4) : 0); k > 0; --k)
+      test::mutate(text, random, kMutations);
     try {
       Scene scene = parseSky(text, "f");
       ++read;
