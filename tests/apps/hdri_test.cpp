@@ -13,6 +13,7 @@
 #include "welkin/atmosphere/tables.hpp"
 #include "welkin/io/exr.hpp"
 #include "welkin/io/hdr.hpp"
+#include "welkin/io/vdb.hpp"
 #include "welkin/scene/environment.hpp"
 
 namespace welkin {
@@ -162,6 +163,29 @@ TEST_F(Hdri, WrongUseIsExplained) {
   refused("-o a.exr --sun clamp=-1", "write full, soft, none or clamp=V");
   refused("-o a.exr --target maya", "--target");
   EXPECT_EQ(run("hdri -o /nowhere/a.exr").code, 1);
+}
+
+// Layers, sheets and voxel grids: what is left is the sky that never had any, in both renderers.
+TEST_F(Hdri, NoCloudsLeavesTheClearSky) {
+  if (!hasOpenVdb()) GTEST_SKIP() << "built without OpenVDB (Debian: libopenvdb-dev)";
+  // A slab all over the sky, 1 to 2 km up.
+  VoxelGrid slab({8, 8, 2}, {-20000.0, -20000.0, 1000.0}, {5000.0, 5000.0, 500.0});
+  for (int i = 0; i < 128; ++i) slab.set({i % 8, i / 8 % 8, i / 64}, 1.0f);
+  saveVdb(file("slab.vdb"), slab, {}, VolumePrecision::full);
+  const std::string grid = "[[grid]]\nfile = \"slab.vdb\"\nextinction = 0.01\n";
+  std::ofstream(file("clear.sky.toml")) << "format = 1\nlayer = []\n";
+  std::ofstream(file("grid.sky.toml")) << "format = 1\nlayer = []\n" << grid;
+  std::ofstream(file("all.sky.toml")) << "format = 1\n[[layer]]\n[[sheet]]\n" << grid;
+  for (const std::string renderer : {"realtime", "path --samples 4 --air tables"}) {
+    const auto picture = [&](const std::string& sky, const std::string& options) {
+      render("a.exr", file(sky + ".sky.toml") + " --size 64 --renderer " + renderer + options);
+      return test::slurp(file("a.exr"));
+    };
+    const std::string clear = picture("clear", "");
+    EXPECT_FALSE(picture("grid", "") == clear) << renderer << ": the slab does not show, so this tests nothing";
+    EXPECT_TRUE(picture("grid", " --no-clouds") == clear) << renderer;
+    EXPECT_TRUE(picture("all", " --no-clouds") == clear) << renderer;
+  }
 }
 
 }  // namespace
