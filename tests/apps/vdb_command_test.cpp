@@ -156,5 +156,26 @@ TEST_F(VdbCommand, AFullDiskLeavesTheOldFiles) {
   }
 }
 
+// Before it bakes, and of a grid in a sky file too; other volumes are written all the same.
+TEST(VdbCommandWithoutOpenVdb, SaysWhatIsMissing) {
+  if (hasOpenVdb()) GTEST_SKIP() << "built with OpenVDB";
+  const fs::path folder = fs::temp_directory_path() / ("welkin_no_vdb_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "cloud.vdb") << "a grid";
+  std::ofstream(folder / "grid.sky.toml") << "format = 1\nlayer = []\n[[grid]]\nfile = \"cloud.vdb\"\n";
+  const std::string stem = (folder / "cloud").string();
+  for (const std::string& arguments : {"vdb -o " + stem + ".vdb", "flux --grid " + stem + ".vdb",
+                                       "render " + (folder / "grid.sky.toml").string() + " -o " + stem + ".png"}) {
+    const test::Outcome o = test::run(arguments);
+    EXPECT_EQ(o.code, 1) << arguments;
+    EXPECT_EQ(o.out, "");
+    EXPECT_NE(o.err.find("cloud.vdb: needs OpenVDB"), std::string::npos) << o.err;
+    EXPECT_NE(o.err.find("install libopenvdb-dev"), std::string::npos) << o.err;
+  }
+  EXPECT_EQ(test::slurp(folder / "cloud.vdb"), "a grid");
+  EXPECT_EQ(test::run("vdb -q --set noise.profile.base_size=32 --voxel 400 -o " + stem + ".vol").code, 0);
+  fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace welkin
