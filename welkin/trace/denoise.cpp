@@ -78,9 +78,10 @@ Planes planesOf(const TraceLayers& layers) {
 
 // A few paths that found the sun make a pixel far brighter than its neighbours, and its variance tells: the excess is
 // about one standard error of a pixel with one such path, two with four. A pixel that exceeds, by less than two of its
-// standard errors, what all but one of its eight neighbours may be (their luminance and two standard errors) is taken
-// for one as bright and as sure as that. What is bright for certain, like the sun's disc, stays. This is for the
-// weights alone: the mean is taken of what was traced, so that no light is lost.
+// standard errors, what all but two of its eight neighbours may be (their luminance and two standard errors) is taken
+// for one that looks like the third of them: taken for as bright as it may be, it would be like none of them, and stay
+// a speck. Two, because such pixels come in pairs. What is bright for certain, like the sun's disc, stays. This is for
+// the weights alone: the mean is taken of what was traced, so that no light is lost.
 void dimOutliers(Planes& p) {
   const Planes from = p;
   parallelFor(static_cast<std::size_t>(p.height), 8, [&](std::size_t begin, std::size_t end) {
@@ -96,23 +97,25 @@ void dimOutliers(Planes& p) {
                                                            variance};
             }
         if (count < 3) continue;
-        std::partial_sort(limits.begin(), limits.begin() + 2, limits.begin() + count, std::greater<>());
-        const auto [limit, variance] = limits[1];
+        const int rank = count < 8 ? 1 : 2;
+        std::partial_sort(limits.begin(), limits.begin() + rank + 1, limits.begin() + count, std::greater<>());
+        const auto [limit, variance] = limits[static_cast<std::size_t>(rank)];
         const float excess = p.luminance.row(y)[x] - limit;
         if (excess <= 0.0f || squared(excess) >= 4.0f * p.variance.row(y)[x]) continue;
-        p.luminance.row(y)[x] = limit;
+        p.luminance.row(y)[x] = limit - 2.0f * std::sqrt(variance);
         p.variance.row(y)[x] = variance;
       }
   });
 }
 
-// The estimates of the variance are noisy themselves: their mean over 5 x 5 pixels. 0 stays 0.
+// The estimates of the variance are noisy themselves, and 0 where a few samples happen to agree: their mean over 5 x 5
+// pixels. 0 stays where all of them are 0.
 void smoothVariance(Planes& p) {
   const Plane from = p.variance;
   parallelFor(static_cast<std::size_t>(p.height), 8, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < p.width; ++x) {
-        if (from.row(y)[x] <= 0.0f) continue;
+        if (p.present.row(y)[x] <= 0.0f) continue;
         float sum = 0.0f, count = 0.0f;
         for (int v = y - 2; v <= y + 2; ++v)
           for (int u = x - 2; u <= x + 2; ++u) {
@@ -148,13 +151,14 @@ void rowDistances(const Planes& p, int y, int dx, int dy, std::vector<float>& ou
   }
 }
 
-// Weighted sums of one row.
+// Weighted sums of one row, and the greatest weight.
 struct RowSums {
-  std::vector<float> red, green, blue, weight;
-  explicit RowSums(std::size_t width) : red(width), green(width), blue(width), weight(width) {}
+  std::vector<float> red, green, blue, weight, greatest;
+  explicit RowSums(std::size_t width) : red(width), green(width), blue(width), weight(width), greatest(width) {}
 };
 
-// Adds to each pixel of row y the one `dx`, `dy` away. `distances` are those of the rows from y - kPatch to y + kPatch.
+// Adds to each pixel of row y the one `dx`, `dy` away, not itself. `distances` are those of the rows from y - kPatch to
+// y + kPatch.
 void addNeighbours(const Planes& p, int y, int dx, int dy, const std::vector<float>* distances, RowSums& sums) {
   constexpr int kSide = 2 * kPatch + 1;
   const auto there = [&](const Plane& plane) { return plane.row(y + dy) + dx; };
@@ -170,6 +174,7 @@ void addNeighbours(const Planes& p, int y, int dx, int dy, const std::vector<flo
     sums.green[x] += near * g[x];
     sums.blue[x] += near * b[x];
     sums.weight[x] += near;
+    sums.greatest[x] = std::max(sums.greatest[x], near);
   }
 }
 
@@ -180,6 +185,7 @@ void filterBand(const Planes& p, int begin, int end, Image& out) {
   std::vector<RowSums> sums(rows, RowSums(width));
   for (int dy = -kSearch; dy <= kSearch; ++dy)
     for (int dx = -kSearch; dx <= kSearch; ++dx) {
+      if (dx == 0 && dy == 0) continue;
       for (std::size_t i = 0; i < distances.size(); ++i)
         rowDistances(p, begin + static_cast<int>(i) - kPatch, dx, dy, distances[i]);
       for (std::size_t i = 0; i < rows; ++i)
@@ -189,10 +195,14 @@ void filterBand(const Planes& p, int begin, int end, Image& out) {
     const int y = begin + static_cast<int>(i);
     for (std::size_t x = 0; x < width; ++x) {
       if (p.variance.row(y)[x] <= 0.0f) continue;
+      // A pixel is like itself, noise included. It weighs no more than the one most like it, or what is like none of
+      // the others would keep its noise.
+      const float own = std::max(sums[i].greatest[x], 1e-6f);
+      const float all = sums[i].weight[x] + own;
       float* to = out.at(static_cast<int>(x), y);
-      to[0] = sums[i].red[x] / sums[i].weight[x];  // a pixel weighs at least itself
-      to[1] = sums[i].green[x] / sums[i].weight[x];
-      to[2] = sums[i].blue[x] / sums[i].weight[x];
+      to[0] = (sums[i].red[x] + own * to[0]) / all;
+      to[1] = (sums[i].green[x] + own * to[1]) / all;
+      to[2] = (sums[i].blue[x] + own * to[2]) / all;
     }
   }
 }

@@ -9,8 +9,9 @@ namespace welkin::trace {
 // patches (3 x 3) differ from its own no more than their variances explain, in luminance and transmittance, and lie at
 // its depth (distances after Rousselle et al. 2012, features after Rousselle et al. 2013). Few paths that found the sun
 // are spread, not cut off, so that the light of the picture as a whole stays. Weights come from the noise that they
-// smooth: a picture for the eye, not a reference. Pixels without variance or without samples stay as they are, bit for
-// bit. The result does not depend on the number of cores. Throws Error (badInput) for layers of different sizes.
+// smooth: a picture for the eye, not a reference. Pixels without samples, and those without variance within 5 x 5 of
+// them, stay as they are, bit for bit. The result does not depend on the number of cores. Throws Error (badInput) for
+// layers of different sizes.
 Image denoise(const TraceLayers& layers);
 
 }  // namespace welkin::trace
