@@ -327,7 +327,7 @@ TEST(Colour, TheZenithAtDuskIsBlue) {
 TEST(Transmittance, SeesATenthMoreAir) {
   Atmosphere thicker = published();
   thicker.rayleigh = 1.1f;
-  const law::AtmosphereParams air = makeAtmosphereParams(thicker, {0, 0, 1}, 0.0, kBlack);
+  const law::AtmosphereParams air = makeAtmosphereParams(thicker, glm::vec3(0, 0, 1), 0.0, kBlack);
   EXPECT_GT(std::abs(computeTransmittance(air, 0.0, 1.0).z - .762310), 1e-3);
 }
 

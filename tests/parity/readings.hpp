@@ -18,7 +18,7 @@
       "welkin/density/nubis.glsl", "welkin/density/sheet.glsl"
 #define WELKIN_ATMOSPHERE_LAW                                                                                \
   "welkin/atmosphere/atmosphere.glsl", "welkin/atmosphere/scattering.glsl", "welkin/atmosphere/models.glsl", \
-      "welkin/atmosphere/sky.glsl"
+      "welkin/atmosphere/sky.glsl", "welkin/atmosphere/night.glsl"
 #define WELKIN_SCENE_LAW "welkin/scene/camera.glsl"
 #define WELKIN_LAW_FILES \
   WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW, WELKIN_DENSITY_LAW, WELKIN_ATMOSPHERE_LAW, WELKIN_SCENE_LAW

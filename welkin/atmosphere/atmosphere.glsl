@@ -7,9 +7,11 @@ struct AtmosphereParams {
   vec4 mieScattering;  // xyz scattering at the ground (1/m), w 1 / scale height
   vec4 mieExtinction;  // xyz extinction at the ground (1/m), w asymmetry
   vec4 ozone;          // xyz absorption in the middle of the layer (1/m), w 1 / half width of the layer
-  vec4 sunDirection;   // xyz unit vector toward the sun, w its angular radius (rad)
+  vec4 sunDirection;   // xyz unit vector toward the sun (at night the moon), w its angular radius (rad)
   vec4 sunHeading;     // xy unit vector: the sun's heading, z length of the horizontal part of sunDirection
-  vec4 sunIrradiance;  // xyz outside the atmosphere, on a plane facing the sun (klx)
+  vec4 sunIrradiance;  // xyz outside the atmosphere, on a plane facing the sun (klx); w 1 when it is the moon
+  vec4 secondDirection;   // xyz unit vector toward a second light of the air, w 1 when there is one
+  vec4 secondIrradiance;  // xyz outside the atmosphere (klx); w airglow at the zenith (kcd/m^2)
   vec4 groundAlbedo;   // xyz
   float groundRadius, thickness, ozoneHeight, haze;
   float hazeFalloff, cameraAltitude, horizonElevation, aerialRange;

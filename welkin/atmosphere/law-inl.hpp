@@ -14,6 +14,7 @@ namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/atmosphere/scattering.glsl"
 #include "welkin/atmosphere/models.glsl"
 #include "welkin/atmosphere/sky.glsl"
+#include "welkin/atmosphere/night.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::HWY_NAMESPACE::law
 HWY_AFTER_NAMESPACE();

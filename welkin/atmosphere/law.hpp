@@ -8,5 +8,6 @@ namespace welkin::law {
 #include "welkin/atmosphere/scattering.glsl"
 #include "welkin/atmosphere/models.glsl"
 #include "welkin/atmosphere/sky.glsl"
+#include "welkin/atmosphere/night.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

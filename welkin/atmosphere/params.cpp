@@ -24,13 +24,23 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 // Twilight falls by about a factor 2^1.1 for each degree of the sun's depression: 10^6 until astronomical night.
 double twilight(double elevation) { return std::exp2(1.1 * std::clamp(elevation / kDegree, -18.0, 0.0)); }
 
+// Sky light of a unit of illuminance, in 1/sr: about 0.03 under a high sun, a twentieth of that at sunset.
+double skyShare(double elevation) {
+  return 0.0016 * std::exp2(1.1 * std::min(elevation / kDegree, 0.0)) + 0.03 * std::max(std::sin(elevation), 0.0);
+}
+
 double horner(double t, const double (&c)[4]) { return ((c[0] * t + c[1]) * t + c[2]) * t + c[3]; }
 
 float narrow(double x) { return static_cast<float>(x); }
 
 }  // namespace
 
-law::AtmosphereParams makeAtmosphereParams(const Atmosphere& a, const glm::vec3& sunDirection, double cameraAltitude,
+double roughSkyLuminance(const FarLight& light) {
+  return luminance(light.irradiance) *
+         skyShare(std::asin(std::clamp(static_cast<double>(light.direction.z), -1.0, 1.0)));
+}
+
+law::AtmosphereParams makeAtmosphereParams(const Atmosphere& a, const SkyLights& lights, double cameraAltitude,
                                            const glm::vec3& groundAlbedo) {
   law::AtmosphereParams p{};
   const double* const rayleigh = kRayleigh[static_cast<std::size_t>(a.coefficients)];
@@ -47,12 +57,15 @@ law::AtmosphereParams makeAtmosphereParams(const Atmosphere& a, const glm::vec3&
   p.ozone = glm::vec4(glm::vec3(ozone), narrow(1.0 / kOzoneHalfWidth));
   p.ozoneHeight = narrow(kOzoneMiddle);
 
-  const glm::dvec3 sun = glm::normalize(glm::dvec3(sunDirection));
+  const glm::dvec3 sun = glm::normalize(glm::dvec3(lights.light.direction));
   const double level = std::hypot(sun.x, sun.y);
   p.sunDirection = glm::vec4(glm::vec3(sun), narrow(0.5 * kSunAngularDiameter));
   p.sunHeading = level > 1e-9 ? glm::vec4(narrow(sun.x / level), narrow(sun.y / level), narrow(level), 0.0f)
                               : glm::vec4(0.0f, 1.0f, 0.0f, 0.0f);
-  p.sunIrradiance = glm::vec4(kSunIrradiance, 0.0f);
+  p.sunIrradiance = glm::vec4(lights.light.irradiance, lights.isSun ? 0.0f : 1.0f);
+  const bool two = luminance(lights.second.irradiance) > 0.0f;
+  p.secondDirection = glm::vec4(glm::normalize(lights.second.direction), two ? 1.0f : 0.0f);
+  p.secondIrradiance = glm::vec4(lights.second.irradiance, lights.airglow);
   p.groundAlbedo = glm::vec4(groundAlbedo, 0.0f);
 
   const double altitude = std::max(cameraAltitude, 1.0);
@@ -63,14 +76,20 @@ law::AtmosphereParams makeAtmosphereParams(const Atmosphere& a, const glm::vec3&
   p.cameraAltitude = narrow(altitude);
   p.horizonElevation = narrow(-dip);
   p.aerialRange = narrow(std::max(kAerialRange, 1.3 * horizon));
-  p.radianceScale = a.model == SkyKind::gradient ? 1.0f : narrow(1.0 / twilight(std::asin(sun.z) + dip));
+  // Half floats end at 65504 and lose digits below 6e-5: the brighter of the two skies comes out as a day's.
+  const auto brightness = [&](const FarLight& light) {
+    const double z = std::clamp(static_cast<double>(light.direction.z), -1.0, 1.0);
+    return luminance(light.irradiance) / luminance(kSunIrradiance) * twilight(std::asin(z) + dip);
+  };
+  p.radianceScale = narrow(1.0 / std::max({brightness(lights.light), brightness(lights.second), 1e-6}));
+  if (a.model == SkyKind::gradient) p.radianceScale = 1.0f;
   p.skyKind = static_cast<int>(a.model);
   return p;
 }
 
-law::PreethamParams makePreethamParams(double turbidity, const glm::vec3& sunDirection) {
+law::PreethamParams makePreethamParams(double turbidity, const SkyLights& lights) {
   const double t = turbidity;
-  const double elevation = std::asin(std::clamp(static_cast<double>(sunDirection.z), -1.0, 1.0));
+  const double elevation = std::asin(std::clamp(static_cast<double>(lights.light.direction.z), -1.0, 1.0));
   const double theta = std::min(0.5 * std::numbers::pi - elevation, 0.5 * std::numbers::pi);
 
   // 000 eq. 2.42 to 2.44: slope and offset in turbidity, for Y, x and y.
@@ -105,7 +124,7 @@ law::PreethamParams makePreethamParams(double turbidity, const glm::vec3& sunDir
                             (1.0 + f[2][c] * std::exp(f[3][c] * theta) + f[4][c] * std::pow(std::cos(theta), 2));
     p.zenith[c] = narrow(std::max(zenith[c], 0.0) / atZenith);
   }
-  p.zenith.w = narrow(twilight(elevation));
+  p.zenith.w = narrow(twilight(elevation) * luminance(lights.light.irradiance) / luminance(kSunIrradiance));
   return p;
 }
 

@@ -16,14 +16,35 @@ inline constexpr glm::vec3 kDefaultGroundAlbedo{0.13f, 0.15f, 0.08f};
 // Luminance of linear Rec.709.
 inline float luminance(const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
-// Everything that the laws of the air need. `sunDirection` is a unit vector, `cameraAltitude` in m above the ground
-// (taken as at least 1 m).
-law::AtmosphereParams makeAtmosphereParams(const Atmosphere& atmosphere, const glm::vec3& sunDirection,
-                                           double cameraAltitude, const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
+// A light so far away that it comes from one direction everywhere. `irradiance`: outside the atmosphere on a plane that
+// faces it, klx in linear Rec.709.
+struct FarLight {
+  glm::vec3 direction{0.0f, 0.0f, 1.0f};
+  glm::vec3 irradiance{0.0f};
+};
+
+// What lights a sky.
+struct SkyLights {
+  FarLight light;        // of clouds, ground and air: the sun, or at night the moon
+  FarLight second;       // of the air alone, at dusk; black: there is none
+  float airglow = 0.0f;  // of the air itself at the zenith, kcd/m^2
+  bool isSun = true;     // whether `light` is seen as the sun's disc
+
+  // The sun alone.
+  SkyLights(const glm::vec3& sunDirection) : light{sunDirection, kSunIrradiance} {}
+};
+
+// About how bright the sky is that a light makes: kcd/m^2, good to a factor of 2 and smooth through twilight.
+double roughSkyLuminance(const FarLight& light);
+
+// Everything that the laws of the air need. Directions are unit vectors, `cameraAltitude` in m above the ground (taken
+// as at least 1 m).
+law::AtmosphereParams makeAtmosphereParams(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
+                                           const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
 
 // Preetham's sky of this turbidity (1.8 to 10). Below the horizon, where the model ends, the sun's sky is that of
-// sunset dimmed by 2^(1.1 elevation in degrees), as twilight is.
-law::PreethamParams makePreethamParams(double turbidity, const glm::vec3& sunDirection);
+// sunset dimmed by 2^(1.1 elevation in degrees), as twilight is. The moon's is the sun's, as much fainter as its light.
+law::PreethamParams makePreethamParams(double turbidity, const SkyLights& lights);
 
 law::GradientParams makeGradientParams(const Atmosphere& atmosphere);
 

@@ -41,6 +41,54 @@ struct FieldTable<Sun> {
   }
 };
 
+// How the moon's place and phase are given: by the sun's date, time and place where the sun has them, and no moon where
+// it stands by angles; by angles of its own; or no moon at all.
+enum class MoonMode { automatic, angles, off };
+template <>
+struct ChoiceNames<MoonMode> {
+  static constexpr std::array<std::string_view, 3> names{"automatic", "angles", "off"};
+};
+
+struct Moon {
+  MoonMode mode = MoonMode::automatic;
+  float elevation = 0.6109f;  // rad
+  float azimuth = 3.1416f;    // rad, compass
+  float phase = 1.0f;
+  float brightness = 1.0f;
+};
+template <>
+struct FieldTable<Moon> {
+  static auto make() {
+    return fieldRows(
+        field<&Moon::mode>("mode",
+                           "automatic computes place and phase from the sun's date, time and place, and shows no moon "
+                           "when the sun's mode is angles; angles takes the values below; off shows none"),
+        field<&Moon::elevation, kDegrees>("elevation", {-90, 90}, {-10, 90}, "for angles: angle above the horizon"),
+        field<&Moon::azimuth, kDegrees>("azimuth", {0, 360}, {}, "for angles: compass heading toward the moon"),
+        field<&Moon::phase>("phase", {0, 1}, {}, "for angles: share of the disc that is lit, 0.5 is half a moon"),
+        field<&Moon::brightness>("brightness", {0, 1000}, {0, 10}, "its light as a multiple, 1 is real"));
+  }
+};
+
+// What shines at night besides the moon.
+struct Night {
+  float stars = 1.0f;
+  float milkyWay = 1.0f;
+  float airglow = 1.0f;
+  float siderealTime = 61200.0f;  // s: 17 h, when the Milky Way stands high in northern summer
+};
+template <>
+struct FieldTable<Night> {
+  static auto make() {
+    return fieldRows(
+        field<&Night::stars>("stars", {0, 1000}, {0, 10}, "light of the stars as a multiple, 0 shows none"),
+        field<&Night::milkyWay>("milky_way", {0, 1000}, {0, 10}, "light of the Milky Way as a multiple"),
+        field<&Night::airglow>("airglow", {0, 1000}, {0, 10}, "the air's own faint light as a multiple"),
+        field<&Night::siderealTime, kHours>("sidereal_time", {0, 24}, {},
+                                            "turn of the stars when the sun's mode is angles; its latitude counts"));
+  }
+};
+
 // physical: scattering by air (Hillaire 2020). preetham: Preetham, Shirley and Smits 1999. gradient: two shades.
 enum class SkyKind { physical, preetham, gradient };
 template <>

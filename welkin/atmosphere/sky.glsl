@@ -1,5 +1,6 @@
 // The tables that renderers read: the sky round the camera and the air in front of what they draw. They are oriented by
-// the world: heading relative to the sun (the sky is symmetric about it), elevation with most texels at the horizon.
+// the world: heading relative to the sun (the sky is symmetric about it, unless a second light shines: then the tables
+// hold both sides), elevation with most texels at the horizon.
 
 const float kSkyViewWidth = 96.0f;
 const float kSkyViewBelow = 40.0f;  // rows below the true horizon, up to the ground
@@ -20,12 +21,37 @@ FN Real headingFromDirection(IN(AtmosphereParams) air, IN(Vec3) direction) {
   Vec2 chord = Vec2(direction.x, direction.y) * (1.0f / r) - xy(air.sunHeading);
   return min(0.5f * length(chord), 1.0f);
 }
+// The same as a coordinate of tables in [0, 1]: of a sky with a second light .5 is toward the sun, 1 away from it by its
+// right side and 0 by its left.
+FN Real headingUnit(IN(AtmosphereParams) air, IN(Vec3) direction) {
+  Real heading = headingFromDirection(air, direction);
+  if (air.secondDirection.w > 0.5f) {
+    Real right = direction.x * air.sunHeading.y - direction.y * air.sunHeading.x;
+    heading = 0.5f + 0.5f * select(right < 0.0f, -heading, heading);
+  }
+  return heading;
+}
+// The inverse: negative on the left side.
+FN Real headingFromUnit(IN(AtmosphereParams) air, IN(Real) unit) {
+  Real heading = unit;
+  if (air.secondDirection.w > 0.5f) heading = 2.0f * unit - 1.0f;
+  return heading;
+}
 FN Real elevationFromDirection(IN(Vec3) direction) { return arcSine(direction.z); }
 
 // Cosine between the sun and a direction of this heading and elevation.
 FN Real cosSunFrom(IN(AtmosphereParams) air, IN(Real) heading, IN(Real) elevation) {
   return clamp(sin(elevation) * air.sunDirection.z +
                    cos(elevation) * air.sunHeading.z * (1.0f - 2.0f * heading * heading), -1.0f, 1.0f);
+}
+
+// The same for the second light; here the side counts.
+FN Real cosSecondFrom(IN(AtmosphereParams) air, IN(Real) heading, IN(Real) elevation) {
+  Real ahead = 1.0f - 2.0f * heading * heading;
+  Real right = 2.0f * heading * sqrt(max(1.0f - heading * heading, 0.0f));
+  float along = air.secondDirection.x * air.sunHeading.x + air.secondDirection.y * air.sunHeading.y;
+  float across = air.secondDirection.x * air.sunHeading.y - air.secondDirection.y * air.sunHeading.x;
+  return clamp(sin(elevation) * air.secondDirection.z + cos(elevation) * (ahead * along + right * across), -1.0f, 1.0f);
 }
 
 // Coordinates of the sky-view table. Rows below and above the horizon are never filtered into each other.
@@ -35,7 +61,7 @@ FN Vec2 skyViewUv(IN(AtmosphereParams) air, IN(Vec3) direction) {
   Real below = sqrt(saturate(-e / (kHalfPi + air.horizonElevation)));
   Real row = select(e >= 0.0f, kSkyViewBelow + above * (kSkyViewAbove - 1.0f),
                     (kSkyViewBelow - 1.0f) * (1.0f - below));
-  return Vec2(texelFromUnit(headingFromDirection(air, direction), kSkyViewWidth), (row + 0.5f) / kSkyViewHeight);
+  return Vec2(texelFromUnit(headingUnit(air, direction), kSkyViewWidth), (row + 0.5f) / kSkyViewHeight);
 }
 // The inverse at texel centres: (heading, elevation).
 FN Vec2 headingElevationFromUv(IN(AtmosphereParams) air, IN(Vec2) uv) {
@@ -44,21 +70,39 @@ FN Vec2 headingElevationFromUv(IN(AtmosphereParams) air, IN(Vec2) uv) {
   Real below = max(1.0f - row / (kSkyViewBelow - 1.0f), 0.0f);
   Real e = select(row > kSkyViewBelow - 0.5f, above * above * (kHalfPi - air.horizonElevation),
                   -below * below * (kHalfPi + air.horizonElevation));
-  return Vec2(unitFromTexel(uv.x, kSkyViewWidth), air.horizonElevation + e);
+  return Vec2(headingFromUnit(air, unitFromTexel(uv.x, kSkyViewWidth)), air.horizonElevation + e);
 }
 
-// Radiance that the air sends to the camera from a direction, up to the top of the air or the ground (kcd/m^2).
-FN Vec3 airRadiance(IN(Sampler2) transmittance, IN(Sampler2) multiScattering, IN(AtmosphereParams) air,
-                    IN(Real) elevation, IN(Real) cosSun, IN(Mask) aboveHorizon, int steps) {
+// The air's own light above it at night, seen without the air in front: a shell at 90 km, which is longer to look
+// through near the horizon (van Rhijn 1921).
+FN Vec3 airglow(IN(AtmosphereParams) air, IN(Real) cosZenith) {
+  float ratio = air.groundRadius / (air.groundRadius + 90000.0f);
+  Real sine2 = max(1.0f - cosZenith * cosZenith, 0.0f);
+  return Vec3(air.secondIrradiance.w) * inversesqrt(1.0f - ratio * ratio * sine2);
+}
+
+// Radiance that the air sends to the camera from a direction, up to the top of the air or the ground, by a light of this
+// height (sine) and irradiance at the angle of cosine `cosLight` from the ray; and what it lets through.
+FN Vec3 scatteredRadiance(IN(Sampler2) transmittance, IN(Sampler2) multiScattering, IN(AtmosphereParams) air,
+                          IN(Real) elevation, float lightHeight, IN(vec4) irradiance, IN(Real) cosLight,
+                          IN(Mask) aboveHorizon, int steps, INOUT(Vec3) through) {
   Real h = air.cameraAltitude;
   Real cosZenith = sin(elevation);
   Real begin = distanceToAir(air, h, cosZenith);
   Real end = select(aboveHorizon, distanceToTop(air, h, cosZenith), distanceToGround(air, h, cosZenith));
   Vec3 radiance = Vec3(0.0f);
+  addInscatter(transmittance, multiScattering, air, h, cosZenith, lightHeight, cosLight, begin, max(begin, end), steps,
+               radiance, through);
+  return radiance * xyz(irradiance);
+}
+
+// The same by the sun, with the airglow behind it (kcd/m^2).
+FN Vec3 airRadiance(IN(Sampler2) transmittance, IN(Sampler2) multiScattering, IN(AtmosphereParams) air,
+                    IN(Real) elevation, IN(Real) cosSun, IN(Mask) aboveHorizon, int steps) {
   Vec3 through = Vec3(1.0f);
-  addInscatter(transmittance, multiScattering, air, h, cosZenith, air.sunDirection.z, cosSun, begin, max(begin, end),
-               steps, radiance, through);
-  return radiance * xyz(air.sunIrradiance);
+  Vec3 radiance = scatteredRadiance(transmittance, multiScattering, air, elevation, air.sunDirection.z,
+                                    air.sunIrradiance, cosSun, aboveHorizon, steps, through);
+  return radiance + select(aboveHorizon, through * airglow(air, sin(elevation)), Vec3(0.0f));
 }
 
 // Radiance of the chosen model above the horizon, of the air below it (kcd/m^2).
@@ -79,6 +123,12 @@ FN Vec4 skyViewTexel(IN(Sampler2) transmittance, IN(Sampler2) multiScattering, I
   Vec2 view = headingElevationFromUv(air, uv);
   Vec3 c = skyRadiance(transmittance, multiScattering, air, preetham, gradient, view.y,
                        cosSunFrom(air, view.x, view.y), uv.y * kSkyViewHeight > kSkyViewBelow, kSkyViewSteps);
+  if (air.secondDirection.w > 0.5f) {
+    Vec3 through = Vec3(1.0f);
+    c += scatteredRadiance(transmittance, multiScattering, air, view.y, air.secondDirection.z, air.secondIrradiance,
+                           cosSecondFrom(air, view.x, view.y), uv.y * kSkyViewHeight > kSkyViewBelow, kSkyViewSteps,
+                           through);
+  }
   c = c * air.radianceScale;
   return Vec4(c.x, c.y, c.z, 1.0f);
 }
@@ -93,13 +143,13 @@ FN Vec2 aerialUv(IN(AtmosphereParams) air, IN(Vec3) direction) {
   Real e = elevationFromDirection(direction) - air.horizonElevation;
   Real above = sqrt(saturate(e / (kHalfPi - air.horizonElevation)));
   Real below = sqrt(saturate(-e / (kHalfPi + air.horizonElevation)));
-  return Vec2(texelFromUnit(headingFromDirection(air, direction), kAerialWidth),
+  return Vec2(texelFromUnit(headingUnit(air, direction), kAerialWidth),
               texelFromUnit(0.5f + 0.5f * (above - below), kAerialHeight));
 }
 FN Vec2 headingElevationFromAerialUv(IN(AtmosphereParams) air, IN(Vec2) uv) {
   Real s = 2.0f * unitFromTexel(uv.y, kAerialHeight) - 1.0f;
   Real range = select(s > 0.0f, Real(kHalfPi - air.horizonElevation), Real(kHalfPi + air.horizonElevation));
-  return Vec2(unitFromTexel(uv.x, kAerialWidth), air.horizonElevation + s * abs(s) * range);
+  return Vec2(headingFromUnit(air, unitFromTexel(uv.x, kAerialWidth)), air.horizonElevation + s * abs(s) * range);
 }
 // Depth coordinate of a distance, and the distance of slice 0, 1, ... (the first stands for none at all).
 FN Real aerialDepth(IN(AtmosphereParams) air, IN(Real) distance) {
@@ -119,11 +169,19 @@ FN void aerialTexel(IN(Sampler2) transmittance, IN(Sampler2) multiScattering, IN
   Real cosZenith = sin(view.y);
   Real entry = distanceToAir(air, h, cosZenith);
   Real exit = max(distanceToTop(air, h, cosZenith), entry);
+  Real from = clamp(Real(begin), entry, exit);
+  Real to = clamp(Real(aerialDistance(air, slice)), entry, exit);
+  Vec3 before = through;
   Vec3 radiance = Vec3(0.0f);
   addInscatter(transmittance, multiScattering, air, h, cosZenith, air.sunDirection.z, cosSunFrom(air, view.x, view.y),
-               clamp(Real(begin), entry, exit), clamp(Real(aerialDistance(air, slice)), entry, exit), kAerialSteps,
-               radiance, through);
+               from, to, kAerialSteps, radiance, through);
   inscatter += radiance * xyz(air.sunIrradiance) * air.radianceScale;
+  if (air.secondDirection.w > 0.5f) {
+    radiance = Vec3(0.0f);
+    addInscatter(transmittance, multiScattering, air, h, cosZenith, air.secondDirection.z,
+                 cosSecondFrom(air, view.x, view.y), from, to, kAerialSteps, radiance, before);
+    inscatter += radiance * xyz(air.secondIrradiance) * air.radianceScale;
+  }
 }
 FN Vec3 aerialStored(IN(AtmosphereParams) air, int slice, IN(Vec3) inscatter) {
   return inscatter * (kAerialUnit / aerialDistance(air, slice));
@@ -149,7 +207,8 @@ FN Vec3 lookupTransmittanceToGround(IN(Sampler2) transmittance, IN(AtmospherePar
   return min(whole / max(lookupTransmittance(transmittance, air, h, -direction.z), 1e-6f), Vec3(1.0f));
 }
 
-// Radiance of the sun's disc outside the atmosphere (kcd/m^2, up to 2e6), its edge smooth over `pixel` radians. Limb
+// Radiance of the sun's disc outside the atmosphere (kcd/m^2, up to 2e6), its edge smooth over `pixel` radians; none
+// when the moon has taken the sun's place. Limb
 // darkening after Hestroffer and Magnan 1998: mu^alpha, with the disc's mean kept.
 FN Vec3 sunDisc(IN(AtmosphereParams) air, IN(Vec3) direction, IN(Real) pixel) {
   float radius = air.sunDirection.w;
@@ -159,5 +218,5 @@ FN Vec3 sunDisc(IN(AtmosphereParams) air, IN(Vec3) direction, IN(Real) pixel) {
   Vec3 limb = Vec3(1.1985f * pow(mu, Real(0.397f)), 1.2515f * pow(mu, Real(0.503f)),
                    1.326f * pow(mu, Real(0.652f)));
   Real edge = saturate((radius - angle) / max(pixel, 1e-5f) + 0.5f);
-  return limb * xyz(air.sunIrradiance) * (edge * 0.318309886f / (radius * radius));
+  return limb * xyz(air.sunIrradiance) * (edge * (1.0f - air.sunIrradiance.w) * 0.318309886f / (radius * radius));
 }

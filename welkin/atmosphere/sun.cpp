@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "welkin/atmosphere/earth.hpp"
 #include "welkin/base/error.hpp"
 
 namespace welkin {
@@ -58,10 +59,6 @@ double positiveAngle(double x) {
   return r < 0 ? r + 2 * kPi : r;
 }
 
-// Terrestrial time less universal time in days: 69 s, right to a few seconds from 2000 to 2050 and to a minute from
-// 1900 to 2100; the sun moves 0.0007 deg a minute.
-constexpr double kDeltaT = 69.0 / 86400.0;
-
 bool isLeap(int year) { return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0); }
 
 // Julian day number of a Gregorian date at noon (Fliegel and van Flandern 1968).
@@ -78,31 +75,43 @@ glm::dvec3 directionFromAngles(double azimuth, double elevation) {
   return {std::sin(azimuth) * std::cos(elevation), std::cos(azimuth) * std::cos(elevation), std::sin(elevation)};
 }
 
+EarthAxis earthAxis(double daysSince2000) {
+  const double century = (daysSince2000 + kDeltaT) / 36525.0;
+  const double node = (125.04452 - 1934.136261 * century) * kDegree;
+  const double sunLongitude = (280.4665 + 36000.7698 * century) * kDegree;
+  const double moonLongitude = (218.3165 + 481267.8813 * century) * kDegree;
+  EarthAxis axis;
+  axis.nutation = (-17.20 * std::sin(node) - 1.32 * std::sin(2 * sunLongitude) - 0.23 * std::sin(2 * moonLongitude) +
+                   0.21 * std::sin(2 * node)) *
+                  kArcsecond;
+  axis.obliquity =
+      (23.4392911 - 0.0130042 * century) * kDegree + (9.20 * std::cos(node) + 0.57 * std::cos(2 * sunLongitude) +
+                                                      0.10 * std::cos(2 * moonLongitude) - 0.09 * std::cos(2 * node)) *
+                                                         kArcsecond;
+  const double t = daysSince2000 / 36525.0;  // Meeus eq. 12.4
+  axis.sidereal = (280.46061837 + 360.98564736629 * daysSince2000 + 0.000387933 * t * t) * kDegree +
+                  axis.nutation * std::cos(axis.obliquity);
+  return axis;
+}
+
+glm::dmat3 localFromEquatorial(double siderealTime, double latitude) {
+  const double c = std::cos(siderealTime), s = std::sin(siderealTime);
+  const double cl = std::cos(latitude), sl = std::sin(latitude);
+  return {{-s, -sl * c, cl * c}, {c, -sl * s, cl * s}, {0.0, cl, sl}};  // columns
+}
+
 SolarPosition solarPosition(double daysSince2000, double latitude, double longitude) {
   const double tau = (daysSince2000 + kDeltaT) / 365250.0, century = 10 * tau;
   const double earth = sumTerms(kL0, tau) + tau * sumTerms(kL1, tau) + tau * tau * sumTerms(kL2, tau);
   const double anomaly = (357.52911 + 35999.05029 * century) * kDegree;                             // Meeus eq. 25.3
   const double distance = 1.00014 - 0.01671 * std::cos(anomaly) - 0.00014 * std::cos(2 * anomaly);  // au
 
-  const double node = (125.04452 - 1934.136261 * century) * kDegree;  // Meeus ch. 22, the four largest terms
-  const double sunLongitude = (280.4665 + 36000.7698 * century) * kDegree;
-  const double moonLongitude = (218.3165 + 481267.8813 * century) * kDegree;
-  const double nutation = (-17.20 * std::sin(node) - 1.32 * std::sin(2 * sunLongitude) -
-                           0.23 * std::sin(2 * moonLongitude) + 0.21 * std::sin(2 * node)) *
-                          kArcsecond;
-  const double obliquity =
-      (23.4392911 - 0.0130042 * century) * kDegree + (9.20 * std::cos(node) + 0.57 * std::cos(2 * sunLongitude) +
-                                                      0.10 * std::cos(2 * moonLongitude) - 0.09 * std::cos(2 * node)) *
-                                                         kArcsecond;
+  const EarthAxis axis = earthAxis(daysSince2000);
+  const double lambda = earth + kPi + axis.nutation - (20.4898 / distance) * kArcsecond;
+  const double ascension = std::atan2(std::sin(lambda) * std::cos(axis.obliquity), std::cos(lambda));
+  const double declination = std::asin(std::sin(axis.obliquity) * std::sin(lambda));
 
-  const double lambda = earth + kPi + nutation - (20.4898 / distance) * kArcsecond;
-  const double ascension = std::atan2(std::sin(lambda) * std::cos(obliquity), std::cos(lambda));
-  const double declination = std::asin(std::sin(obliquity) * std::sin(lambda));
-
-  const double t = daysSince2000 / 36525.0;  // Meeus eq. 12.4
-  const double sidereal =
-      (280.46061837 + 360.98564736629 * daysSince2000 + 0.000387933 * t * t) * kDegree + nutation * std::cos(obliquity);
-  const double hourAngle = sidereal + longitude - ascension;
+  const double hourAngle = axis.sidereal + longitude - ascension;
 
   const double sinElevation =
       std::sin(latitude) * std::sin(declination) + std::cos(latitude) * std::cos(declination) * std::cos(hourAngle);

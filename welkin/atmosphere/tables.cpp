@@ -46,10 +46,10 @@ void paintUserRow(const law::AtmosphereParams& air, const SkyModel& user, int y,
 
 }  // namespace
 
-SkyParams makeSkyParams(const Atmosphere& atmosphere, const glm::vec3& sunDirection, double cameraAltitude,
+SkyParams makeSkyParams(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
                         const glm::vec3& groundAlbedo) {
-  return {makeAtmosphereParams(atmosphere, sunDirection, cameraAltitude, groundAlbedo),
-          makePreethamParams(atmosphere.turbidity, sunDirection), makeGradientParams(atmosphere)};
+  return {makeAtmosphereParams(atmosphere, lights, cameraAltitude, groundAlbedo),
+          makePreethamParams(atmosphere.turbidity, lights), makeGradientParams(atmosphere)};
 }
 
 glm::dvec3 computeTransmittance(const law::AtmosphereParams& air, double altitude, double cosZenith) {
@@ -82,8 +82,17 @@ glm::vec3 computeSkyRadiance(const SkyParams& params, const AirTables& air, cons
   constexpr int kSteps = 500;
   const float elevation = law::elevationFromDirection(direction);
   const float cosSun = std::clamp(glm::dot(direction, glm::vec3(params.air.sunDirection)), -1.0f, 1.0f);
-  return law::skyRadiance(air.transmittance.view(), air.multiScattering.view(), params.air, params.preetham,
-                          params.gradient, elevation, cosSun, elevation >= params.air.horizonElevation, kSteps);
+  const TextureView t = air.transmittance.view(), m = air.multiScattering.view();
+  const bool above = elevation >= params.air.horizonElevation;
+  glm::vec3 sum =
+      law::skyRadiance(t, m, params.air, params.preetham, params.gradient, elevation, cosSun, above, kSteps);
+  if (params.air.secondDirection.w > 0.5f) {
+    const glm::vec3 second(params.air.secondDirection);
+    glm::vec3 through(1.0f);
+    sum += law::scatteredRadiance(t, m, params.air, elevation, second.z, params.air.secondIrradiance,
+                                  std::clamp(glm::dot(direction, second), -1.0f, 1.0f), above, kSteps, through);
+  }
+  return sum;
 }
 
 AirTables bakeAir(const law::AtmosphereParams& air) {
@@ -110,6 +119,22 @@ void bakeAerial(const SkyParams& params, const AirTables& air, Table& inscatter,
   transmittance = inscatter;
   forRows(inscatter.height, [&](int y) { bake::aerialRow(params, air, y, inscatter, transmittance); });
 }
+
+namespace {
+
+// The sky of the second light alone.
+SkyParams secondAlone(SkyParams p) {
+  const glm::vec2 level(p.air.secondDirection);
+  const float length = glm::length(level);
+  p.air.sunDirection = glm::vec4(glm::vec3(p.air.secondDirection), p.air.sunDirection.w);
+  p.air.sunHeading = length > 1e-6f ? glm::vec4(level / length, length, 0.0f) : glm::vec4(0.0f, 1.0f, 0.0f, 0.0f);
+  p.air.sunIrradiance = glm::vec4(glm::vec3(p.air.secondIrradiance), 0.0f);
+  p.air.secondDirection.w = p.air.secondIrradiance.w = 0.0f;
+  p.air.skyKind = 0;
+  return p;
+}
+
+}  // namespace
 
 SkyLight computeSkyLight(const SkyParams& params, const AirTables& air, const SkyModel* user) {
   // Elevations at equal steps; headings as pi t^2 at equal steps of t, dense toward the sun.
@@ -145,13 +170,18 @@ SkyLight computeSkyLight(const SkyParams& params, const AirTables& air, const Sk
   light.sunIrradiance = glm::vec3(params.air.sunIrradiance) *
                         law::lookupTransmittanceToSun(air.transmittance.view(), params.air, params.air.cameraAltitude,
                                                       params.air.sunDirection.z);
+  if (params.air.secondDirection.w > 0.5f && !user) {
+    const SkyLight second = computeSkyLight(secondAlone(params), air);
+    light.skyIrradiance += second.skyIrradiance;
+    light.meanRadiance += second.meanRadiance;
+  }
   return light;
 }
 
-SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const glm::vec3& sunDirection, double cameraAltitude,
+SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
                      const glm::vec3& groundAlbedo, const SkyModel* user) {
   SkyTablesCpu sky;
-  sky.params = makeSkyParams(atmosphere, sunDirection, cameraAltitude, groundAlbedo);
+  sky.params = makeSkyParams(atmosphere, lights, cameraAltitude, groundAlbedo);
   sky.air = bakeAir(sky.params.air);
   sky.skyView = bakeSkyView(sky.params, sky.air, user);
   bakeAerial(sky.params, sky.air, sky.aerialInscatter, sky.aerialTransmittance);

@@ -42,7 +42,7 @@ struct SkyParams {
   law::PreethamParams preetham;
   law::GradientParams gradient;
 };
-SkyParams makeSkyParams(const Atmosphere& atmosphere, const glm::vec3& sunDirection, double cameraAltitude,
+SkyParams makeSkyParams(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
                         const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
 
 // The sky's light for things that are lit by all of it.
@@ -75,7 +75,7 @@ void bakeAerial(const SkyParams& params, const AirTables& air, Table& inscatter,
 SkyLight computeSkyLight(const SkyParams& params, const AirTables& air, const SkyModel* user = nullptr);
 
 // All tables of a sky. `user`, when given, paints the sky above the horizon in place of atmosphere.model.
-SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const glm::vec3& sunDirection, double cameraAltitude,
+SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
                      const glm::vec3& groundAlbedo = kDefaultGroundAlbedo, const SkyModel* user = nullptr);
 SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const Sun& sun, double cameraAltitude,
                      const glm::vec3& groundAlbedo = kDefaultGroundAlbedo, const SkyModel* user = nullptr);

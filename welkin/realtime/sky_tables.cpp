@@ -41,7 +41,7 @@ gl::Texture volume(const gl::Api& gl) {
 // The air without the sun and the camera.
 law::AtmosphereParams airOnly(law::AtmosphereParams air) {
   air.sunDirection = glm::vec4(0, 0, 1, air.sunDirection.w);
-  air.sunHeading = glm::vec4(0);
+  air.sunHeading = air.sunIrradiance = air.secondDirection = air.secondIrradiance = glm::vec4(0);
   air.cameraAltitude = air.horizonElevation = air.radianceScale = air.aerialRange = 0;
   air.skyKind = 0;
   return air;
@@ -69,14 +69,16 @@ SkyTables::SkyTables(const gl::Api& gl)
       skyView_(plane(gl, gl::kRgba16F, law::kSkyViewWidth, law::kSkyViewHeight)), aerialInscatter_(volume(gl)),
       aerialTransmittance_(volume(gl)), inscatterSum_{sum(gl), sum(gl)}, throughSum_{sum(gl), sum(gl)} {}
 
-void SkyTables::update(const Atmosphere& atmosphere, const glm::vec3& sunDirection, double cameraAltitude,
+void SkyTables::update(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
                        const glm::vec3& groundAlbedo, const SkyModel* user) {
   // A camera or sun that has hardly moved keeps the tables as they are.
   const double before = params_.air.cameraAltitude;
   const bool sameAltitude = skyFills_ > 0 && std::abs(cameraAltitude - before) <= std::max(2.0, 0.005 * before);
-  const bool sameSun = skyFills_ > 0 && glm::distance(sunDirection, glm::vec3(params_.air.sunDirection)) < 1e-5f;
-  const glm::vec3 sun = sameSun ? glm::vec3(params_.air.sunDirection) : sunDirection;
-  SkyParams next = makeSkyParams(atmosphere, sun, sameAltitude ? before : cameraAltitude, groundAlbedo);
+  const bool sameSun =
+      skyFills_ > 0 && glm::distance(lights.light.direction, glm::vec3(params_.air.sunDirection)) < 1e-5f;
+  SkyLights kept = lights;
+  if (sameSun) kept.light.direction = glm::vec3(params_.air.sunDirection);
+  SkyParams next = makeSkyParams(atmosphere, kept, sameAltitude ? before : cameraAltitude, groundAlbedo);
   const std::uint64_t revision = user ? user->revision() : 0;
   const bool airChanged = airFills_ == 0 || !sameBytes(airOnly(next.air), airOnly(params_.air));
   if (!airChanged && skyFills_ > 0 && sameBytes(next, params_) && user == user_ && revision == userRevision_) return;

@@ -109,6 +109,8 @@ struct Scene {
   std::vector<Sheet> sheets;
   std::vector<GridCloud> grids;
   Sun sun;
+  Moon moon;
+  Night night;
   Atmosphere atmosphere;
   Wind wind;
   Ground ground;

@@ -29,6 +29,8 @@ Section section(std::string path, const char* help, T& object) {
 std::vector<Section> sectionsOf(Scene& scene) {
   std::vector<Section> all{{"", "the sky as a whole", topLevelFields(), &scene}};
   all.push_back(section("sun", "where the sun stands", scene.sun));
+  all.push_back(section("moon", "where the moon stands", scene.moon));
+  all.push_back(section("night", "stars and the air's own light", scene.night));
   all.push_back(section("atmosphere", "the air and what is behind it", scene.atmosphere));
   all.push_back(section("wind", "the wind that moves the layers", scene.wind));
   all.push_back(section("ground", "the land below", scene.ground));
