@@ -148,8 +148,9 @@ FN Vec3 milkyWay(IN(NightParams) night, IN(Vec3) direction) {
   return Vec3(1.02f, 0.99f, 1.04f) * glow;
 }
 
-// Stars and Milky Way toward a direction in local axes.
+// Stars and Milky Way toward a direction in local axes; none in front of the moon.
 FN Vec3 starlight(IN(NightParams) night, IN(Vec3) direction, IN(Real) pixel) {
   Vec3 d = Vec3(dot(direction, xyz(night.skyX)), dot(direction, xyz(night.skyY)), dot(direction, xyz(night.skyZ)));
-  return starField(d, pixel) * night.stars + milkyWay(night, d) * night.milkyWay;
+  Vec3 sum = starField(d, pixel) * night.stars + milkyWay(night, d) * night.milkyWay;
+  return sum * step(night.moon.w, length(direction - xyz(night.moon)));
 }

@@ -68,7 +68,7 @@ FrameParams frameParams(const Frame& frame, int width, int height, int interleav
   p.depthInfo = glm::vec4(frame.depthTexture ? 1.0f : 0.0f, projection[2][2], projection[3][2],
                           frame.depthRange == DepthRange::zeroToOne ? 1.0f : 0.0f);
   p.wind.w = frame.preExposure;
-  p.options = glm::vec4(0.0f, quality.jitter ? 1.0f : 0.0f, behindClouds(frame), pixelAngle);
+  p.options = glm::vec4(1.0f, quality.jitter ? 1.0f : 0.0f, behindClouds(frame), pixelAngle);
   return p;
 }
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <optional>
 
-#include "welkin/atmosphere/sun.hpp"
+#include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/gl/state.hpp"
 #include "welkin/realtime/frame_params.hpp"
@@ -24,7 +24,7 @@ namespace welkin::realtime {
 
 namespace {
 
-constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2;
+constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3;
 
 // The uniform block "Layers" of the march.
 struct LayersBlock {
@@ -68,6 +68,7 @@ struct View::State {
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
   double lastTime = 0.0;
+  float exposure = 1.0f;  // factor on what the history holds
 };
 
 View::View() : state_(std::make_unique<State>()) {}
@@ -84,13 +85,15 @@ struct Renderer::State {
   gl::Api gl;
   gl::VertexArray triangle;
   gl::Framebuffer framebuffer;
-  gl::UniformBuffer frameBuffer, layersBuffer, marchBuffer, weatherBuffer;
+  gl::UniformBuffer frameBuffer, layersBuffer, marchBuffer, weatherBuffer, nightBuffer;
   SkyTables sky;
   Timers timers;
   Scene scene;
   bool hasScene = false;
   int sceneNumber = 0;
-  glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};
+  Heavens heavens;
+  gl::Program compositeMoon, compositeNight;
+  glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};  // of the light: by night it is the moon's
   gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
   std::vector<gl::Texture> maps;
   std::unique_ptr<WeatherLevels> weather;
@@ -104,7 +107,7 @@ struct Renderer::State {
   double samples = 0.0, mostSamples = 0.0, rays = 0.0;
 
   explicit State(const gl::Loader& loader)
-      : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
+      : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl), nightBuffer(gl),
         sky(gl), timers(gl) {
     triangle = gl::VertexArray(gl);
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
@@ -146,6 +149,8 @@ struct Renderer::State {
                  const FrameParams& params);
   void resolvePass(View::State& view, const gl::Program& program);
   void compositePass(const View::State& view, const Frame& frame);
+  const gl::Program& compositeProgram();
+  float exposure() const;
 };
 
 Renderer::Renderer(const gl::Loader& loader) : state_(std::make_unique<State>(loader)) {}
@@ -216,7 +221,8 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
                 fmt::format("a sky has at most {} layers and {} sheets", kMaxLayers, kMaxSheets));
   const gl::StateGuard guard(s.gl);
   s.gl.BindVertexArray(s.triangle.id());
-  s.sunDirection = sunDirection(scene.sun);
+  s.heavens = heavensOf(scene.sun, scene.moon, scene.night);
+  s.sunDirection = s.heavens.lights.light.direction;
   s.makeTextures(scene, textures);
   s.makeWeather(scene, textures);
   s.makeGrids(scene, textures);
@@ -291,7 +297,7 @@ void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
 
 void Renderer::State::skyPass(const glm::dvec3& position) {
   const double altitude = planetParams(position).altitude;
-  sky.update(scene.atmosphere, sunDirection, std::max(altitude, 0.0), scene.ground.albedo, userSky.get());
+  sky.update(scene.atmosphere, heavens.lights, std::max(altitude, 0.0), scene.ground.albedo, userSky.get());
 }
 
 void Renderer::State::weatherPass(const glm::dvec3& position, const Drift& drift) {
@@ -379,22 +385,46 @@ void Renderer::State::resolvePass(View::State& view, const gl::Program& program)
   view.current = 1 - view.current;
 }
 
+// Moon and stars are variants, since the software driver runs all of a shader.
+const gl::Program& Renderer::State::compositeProgram() {
+  if (!heavens.starsShow && !heavens.moonShows) return composite;
+  gl::Program& program = heavens.starsShow ? compositeNight : compositeMoon;
+  if (program.id() == 0)
+    program = gl::Program(gl, heavens.starsShow ? "composite, night" : "composite, moon",
+                          heavens.starsShow ? "#define NIGHT\n#define STARS\n" : "#define NIGHT\n",
+                          fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
+  return program;
+}
+
+// By night the history holds light times this: half floats lose digits below 6e-5, which is a moonlit cloud.
+float Renderer::State::exposure() const {
+  constexpr float kNightExposure = 4096.0f, kDark = -0.1f;  // the sine of the sun's height
+  const bool night = heavens.sun.z < kDark && scene.atmosphere.model != SkyKind::gradient && !userSky;
+  return night ? kNightExposure : 1.0f;
+}
+
 void Renderer::State::compositePass(const View::State& view, const Frame& frame) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
   gl.Viewport(0, 0, frame.width, frame.height);
   gl.Enable(GL_BLEND);
   gl.BlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
   gl.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
-  gl.UseProgram(composite.id());
-  composite.bindBlock("Frame", kFrameBlock);
-  composite.bindBlock("Air", kLayersBlock);
+  const gl::Program& program = compositeProgram();
+  gl.UseProgram(program.id());
+  program.bindBlock("Frame", kFrameBlock);
+  program.bindBlock("Air", kLayersBlock);
   frameBuffer.bind(kFrameBlock);
   weatherBuffer.upload(&sky.params().air, sizeof(law::AtmosphereParams));
   weatherBuffer.bind(kLayersBlock);
-  bind(composite, "uHistory", view.history[static_cast<std::size_t>(view.current)], 0);
-  bind(composite, "uSkyView", sky.skyView(), 1);
-  bind(composite, "uTransmittance", sky.transmittance(), 2);
-  bindHostDepth(composite, frame, 3);
+  if (&program != &composite) {
+    program.bindBlock("Night", kNightBlock);
+    nightBuffer.upload(&heavens.night, sizeof heavens.night);
+    nightBuffer.bind(kNightBlock);
+  }
+  bind(program, "uHistory", view.history[static_cast<std::size_t>(view.current)], 0);
+  bind(program, "uSkyView", sky.skyView(), 1);
+  bind(program, "uTransmittance", sky.transmittance(), 2);
+  bindHostDepth(program, frame, 3);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
@@ -414,7 +444,13 @@ void Renderer::render(View& view, const Frame& frame) {
   const glm::dvec3 position = eastNorthUp(frame.position, frame.up);
   const Drift drift{s.scene.wind.speed, s.scene.wind.from, frame.time};
 
+  if (v.exposure != s.exposure()) {
+    view.reset();
+    v.exposure = s.exposure();
+  }
   FrameParams params = frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
+  params.wind.w *= v.exposure;
+  params.options.x = 1.0f / v.exposure;
   const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != position || v.lastTime != frame.time ||
                      v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
