@@ -93,6 +93,24 @@ TEST(AutomaticEv, IsNotSwayedByASunOrByBlackOrBrokenPixels) {
   EXPECT_EQ(automaticEv(Image(4, 4, 3)), 15.0);
 }
 
+// A moonlit cloud of .01 cd/m^2: a meter would say EV -3.6; 2.3 stops darker it looks like night. By day nothing is
+// taken off, and on the way there nothing jumps.
+TEST(AutomaticEv, LeavesTheNightDark) {
+  const auto at = [](double luminance) {
+    Image image(8, 8, 3);
+    std::fill(image.pixels.begin(), image.pixels.end(), static_cast<float>(luminance / 1000.0));
+    return automaticEv(image);
+  };
+  const auto metered = [](double luminance) { return std::log2(luminance * 100.0 / 12.5); };
+  EXPECT_NEAR(at(0.01) - metered(0.01), 2.32, 0.02);
+  EXPECT_NEAR(at(1e-4) - metered(1e-4), 2.43, 0.02);
+  EXPECT_NEAR(at(1.5), metered(1.5), 1e-4);
+  for (double y = 1e-4; y < 10; y *= 1.1) {
+    EXPECT_GT(at(1.1 * y), at(y)) << y;
+    EXPECT_LT(at(1.1 * y), at(y) + 0.15) << y;
+  }
+}
+
 TEST(DisplayBytes, DitherKeepsTheMeanAndIsTheSameEachTime) {
   Image image(256, 256, 3);
   const float light = 0.0000305f;

@@ -80,6 +80,16 @@ law::ToneParameters toneParameters(const ToneSettings& settings) {
   return p;
 }
 
+namespace {
+
+// How many stops darker than a meter wants it a night of this luminance (cd/m^2) is shown.
+double nightStops(double luminance) {
+  const auto key = [](double y) { return 1.03 - 2.0 / (2.0 + std::log10(y + 1.0)); };
+  return std::log2(key(1.0) / key(std::min(luminance, 1.0)));
+}
+
+}  // namespace
+
 double automaticEv(const Image& light) {
   std::vector<float> logs;
   const std::size_t count = static_cast<std::size_t>(light.width) * light.height;
@@ -94,7 +104,8 @@ double automaticEv(const Image& light) {
   const std::size_t begin = logs.size() / 20, end = std::max(begin + 1, logs.size() - logs.size() / 10);
   double sum = 0;
   for (std::size_t i = begin; i < end; ++i) sum += logs[i];
-  return sum / static_cast<double>(end - begin) + std::log2(1000.0 * 100.0 / 12.5);
+  const double mean = sum / static_cast<double>(end - begin);
+  return mean + std::log2(1000.0 * 100.0 / 12.5) + nightStops(1000.0 * std::exp2(mean));
 }
 
 Image displayValues(const Image& light, const ToneSettings& settings) {

@@ -30,8 +30,9 @@ law::ToneParameters toneParameters(const ToneSettings& settings);
 glm::mat3 whiteBalanceMatrix(double kelvin);
 
 // The EV100 at which a meter calibrated to 12.5 cd/m^2 would expose the picture (kcd/m^2): log-average luminance of all
-// but the darkest 5 % and brightest 10 %, so that neither a sun nor a black border sways it. Pixels that are not finite
-// or not positive are left out; 15 when none remain.
+// but the darkest 5 % and brightest 10 %, so that neither a sun nor a black border sways it. Below 1 cd/m^2 the picture
+// is left darker, as the eye sees the night: by up to 2.4 stops (the key of Krawczyk, Myszkowski and Seidel 2005, eq.
+// 11). Pixels that are not finite or not positive are left out; 15 when none remain.
 double automaticEv(const Image& light);
 
 // Tone-mapped to sRGB values in [0, 1]; channels as in displayBytes. NaN becomes black.

@@ -72,7 +72,7 @@ class Paths {
   Paths(const KernelScene& scene, const TileJob& job, std::span<PixelSums> pixels)
       : s_(scene), job_(job), pixels_(pixels), m_(scene.clouds->majorants),
         planet_(std::bit_cast<law::PlanetParams>(scene.planet)), air_(std::bit_cast<law::AtmosphereParams>(scene.air)),
-        camera_(std::bit_cast<law::CameraParams>(scene.camera)),
+        camera_(std::bit_cast<law::CameraParams>(scene.camera)), night_(std::bit_cast<law::NightParams>(scene.night)),
         total_(static_cast<std::size_t>(job.width) * job.height * job.samples) {
     for (const auto& l : scene.clouds->layers) layers_.push_back(std::bit_cast<law::LayerParams>(l));
     for (const auto& c : scene.clouds->weather.clips) clips_.push_back(std::bit_cast<law::ClipParams>(c));
@@ -83,6 +83,7 @@ class Paths {
     pathTop_ = scene.airScatters ? air_.thickness : cloudTop_;
     askScale_ = kAsking / std::max(air_.sunIrradiance.x + air_.sunIrradiance.y + air_.sunIrradiance.z, 1e-20f);
     sun_ = Vec3(air_.sunDirection.x, air_.sunDirection.y, air_.sunDirection.z);
+    second_ = Vec3(air_.secondDirection.x, air_.secondDirection.y, air_.secondDirection.z);
   }
 
   KernelStatistics run() {
@@ -607,17 +608,19 @@ class Paths {
     return albedo;
   }
 
-  // A direction to a point of the sun's disc.
-  Vec3 sampleSun(Mask lanes) {
+  // A direction to a point of the sun's disc, or of the second light's, which is as large.
+  Vec3 sampleSun(Mask lanes) { return sampleDisc(lanes, sun_); }
+  Vec3 sampleDisc(Mask lanes, Vec3 middle) {
     const Real radius = air_.sunDirection.w;
     const Real r2 = next(random_, lanes), azimuth = next(random_, lanes);
     const Real angle = radius * law::sqrt(r2);
-    return turned(sun_, 0.5f * angle * angle, azimuth);
+    return turned(middle, 0.5f * angle * angle, azimuth);
   }
 
   // Asks for light at place_: that of the sun, or, with the share of questions that is the sky's, that of a direction
   // drawn from it. What a direction of the sky sends comes by that question, by the path and by its branch: all three
-  // share it by the balance heuristic. `chance` is the branch's.
+  // share it by the balance heuristic. `chance` is the branch's. In the dusk, when sun and moon both light the air,
+  // each has half of the questions.
   template <class At>
   void ask(Mask lanes, Vec3 toSun, Vec3 sunThroughput, Real h, Real chance, const At& at) {
     const float share = s_.sky.share;
@@ -637,6 +640,21 @@ class Paths {
         question(both(sky, zenithCosine(way, altitude) > law::horizonCosine(air_, altitude)), way, value);
       }
       sunThroughput = sunThroughput * (1.0f / (1.0f - share));
+    }
+    if (s_.airScatters && air_.secondDirection.w > 0.5f) {
+      const Mask other = both(lanes, next(random_, lanes) < 0.5f);
+      const Vec3 way = sampleDisc(other, second_);
+      Vec3 phase(Real(0.0f));
+      Real pdf = 0.0f;
+      at(way, phase, pdf);
+      const Real altitude = law::max(h, 0.0f), cosZenith = zenithCosine(way, altitude);
+      const Vec3 light =
+          law::lookupTransmittance(s_.transmittance, air_, altitude, law::clamp(cosZenith, Real(-1.0f), Real(1.0f))) *
+          vec4(air_.secondIrradiance);
+      const Vec3 value = beta_ * phase * light * (2.0f * balance());
+      question(both(other, both(cosZenith > law::horizonCosine(air_, altitude), sumOf(value) > 0.0f)), way, value);
+      sunThroughput = sunThroughput * 2.0f;
+      sky = other;
     }
     askSun(andNot(lanes, sky), toSun, sunThroughput, h);
   }
@@ -801,6 +819,20 @@ class Paths {
       light_ = select(lanes, light_ + sky, light_);
       single_ = select(both(lanes, count_ < 1.5f), single_ + sky, single_);
     }
+    if (s_.airScatters && s_.glows) {
+      const Real altitude = law::max(law::altitudeAt(place_, planet_), 0.0f);
+      const Vec3 glow = weight * law::airglow(air_, law::clamp(zenithCosine(way_, altitude), Real(-1.0f), Real(1.0f)));
+      light_ = select(lanes, light_ + glow, light_);
+      single_ = select(both(lanes, count_ < 1.5f), single_ + glow, single_);
+    }
+    if ((s_.moonShows || s_.starsShow) && !noneOf(first)) {
+      Vec3 far(Real(0.0f));
+      if (s_.moonShows) far = law::moonDisc(night_, way_, Real(1e-6f));
+      if (s_.starsShow) far += law::starlight(night_, way_, Real(s_.pixelAngle));
+      far = far * weight;
+      if (!s_.airScatters) far = far * law::lookupTransmittance(s_.transmittance, air_, air_.cameraAltitude, way_.z);
+      light_ = select(first, light_ + far, light_);
+    }
     if (s_.sunDisc && !noneOf(first)) {
       Vec3 disc = law::sunDisc(air_, way_, Real(1e-6f)) * weight;
       if (!s_.airScatters) disc = disc * law::lookupTransmittance(s_.transmittance, air_, air_.cameraAltitude, way_.z);
@@ -851,13 +883,14 @@ class Paths {
   law::PlanetParams planet_;
   law::AtmosphereParams air_;
   law::CameraParams camera_;
+  law::NightParams night_;
   float askScale_ = 1.0f;  // from light that a scattering would bring to the chance of asking
   bool hasAir_ = true;
   float cloudTop_ = 0.0f, pathTop_ = 0.0f;  // m, above which a shadow ray and a path are free
   std::size_t total_, issued_ = 0;
   KernelStatistics statistics_;
 
-  Vec3 sun_;
+  Vec3 sun_, second_;
   Random random_;
   Uint index_;           // pixel in the tile
   Mask alive_, shadow_;  // has a path; asks for the sun

@@ -41,7 +41,10 @@ struct KernelScene {
       0.0f;  // versine within which the first component's forward peak lies, and its share of the scattering
   float aureoleShare = 1.0f;
   law::CameraParams camera{};
-  bool sunDisc = true;           // whether the camera sees it
+  bool sunDisc = true;       // whether the camera sees it
+  law::NightParams night{};  // what else the camera sees, where it shows
+  bool moonShows = false, starsShow = false, glows = false;
+  float pixelAngle = 0.0f;       // rad
   float mostScatterings = 1e6f;  // by cloud, air and ground; paths end at the next one
 };
 

@@ -9,7 +9,7 @@
 #include <mutex>
 
 #include "welkin/atmosphere/params.hpp"
-#include "welkin/atmosphere/sun.hpp"
+#include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
 #include "welkin/scene/scatterers.hpp"
@@ -79,8 +79,8 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
                             {}, eye, settings.clouds);
   KernelScene& k = b.kernel;
   k.planet = planetParams(eye);
-  b.sky = bakeSky(scene.atmosphere, sunDirection(scene.sun), std::max(k.planet.altitude, 0.0f), scene.ground.albedo,
-                  inputs.sky);
+  const Heavens heavens = heavensOf(scene.sun, scene.moon, scene.night);
+  b.sky = bakeSky(scene.atmosphere, heavens.lights, std::max(k.planet.altitude, 0.0f), scene.ground.albedo, inputs.sky);
   k.clouds = &b.clouds;
   k.air = b.sky.params.air;
   k.airScatters = settings.air == AirModel::medium && scene.atmosphere.model == SkyKind::physical && !inputs.sky;
@@ -124,6 +124,15 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
 
   k.camera = cameraParams(scene.camera, static_cast<double>(settings.width) / settings.height);
   k.sunDisc = settings.sunDisc == SunDisc::seen;
+  k.night = heavens.night;
+  k.moonShows = heavens.moonShows;
+  k.starsShow = heavens.starsShow;
+  k.glows = heavens.lights.airglow > 1e-6 * roughSkyLuminance(heavens.lights.light);
+  const double half = scene.camera.projection == Projection::equirectangular
+                          ? static_cast<double>(k.camera.angles.z)
+                          : static_cast<double>(glm::length(glm::vec3(k.camera.right)));
+  // A pixel's samples spread over it and widen the spots of stars by themselves.
+  k.pixelAngle = static_cast<float>(0.7 * 2.0 * half / settings.width);
   if (settings.scatterings > 0) k.mostScatterings = static_cast<float>(settings.scatterings);
 
   totals_.resize(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
