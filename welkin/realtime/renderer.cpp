@@ -107,8 +107,8 @@ struct Renderer::State {
   double samples = 0.0, mostSamples = 0.0, rays = 0.0;
 
   explicit State(const gl::Loader& loader)
-      : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl), nightBuffer(gl),
-        sky(gl), timers(gl) {
+      : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
+        nightBuffer(gl), sky(gl), timers(gl) {
     triangle = gl::VertexArray(gl);
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
     white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
