@@ -111,7 +111,7 @@ std::map<std::string, double> runCycles(const Scene& scene, const std::string& f
   const Camera& camera = scene.camera;
   const GridCloud& cloud = scene.grids.front();
   const glm::dvec3 sun = sunDirection(scene.sun);
-  const SkyParams sky = makeSkyParams(scene.atmosphere, sun, camera.position.z, scene.ground.albedo);
+  const SkyParams sky = makeSkyParams(scene.atmosphere, glm::vec3(sun), camera.position.z, scene.ground.albedo);
   std::string list;
   for (const Shot& shot : shots)
     list += fmt::format("{}{{\"name\": \"{}\", \"samples\": {}, \"scatterings\": {}, \"seed\": {}, \"step_rate\": {}}}",

@@ -117,7 +117,7 @@ Environment traceEnvironment(const Scene& source, const EnvironmentOptions& opti
   const std::vector<Volume> maps = weatherMaps(scene);
   const std::vector<PlacedGrid> grids = loadGrids(scene);
   Environment out{Image(pixels.width(), pixels.height(), 3), {}, {}};
-  out.light.features = featuresOf(scene);
+  out.light.features = tracedFeaturesOf(scene);
   for (std::size_t picture = 0; picture < cameras.size(); ++picture) {
     scene.camera = cameras[picture];
     trace::PathTracer tracer(scene, {.weatherMaps = maps, .grids = grids}, settings);

@@ -202,7 +202,7 @@ void traceToFile(const Scene& scene, const TraceOptions& options, const std::str
   if (!complete) checkpoint.save(tracer);
   const trace::TraceLayers layers = tracer.layers();
   Image picture = options.denoise ? trace::denoise(layers) : layers.radiance;
-  picture.features = featuresOf(scene);
+  picture.features = tracedFeaturesOf(scene);
   savePicture(output, picture, scene.film);
   if (options.layers) saveLayers(output, layers);
   if (complete) checkpoint.remove();

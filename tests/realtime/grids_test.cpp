@@ -55,6 +55,7 @@ PlacedGrid placedPlainly(VoxelGrid voxels) {
 TEST(GridFrameParity, TheAtlasHoldsTheVoxels) {
   Stage stage(128, 72);
   Scene scene = withoutLayers(cloudyScene());
+  scene.quality.lightVolume = false;
   // Turned and moved, and a second one in another place: slices, rotation and offsets all count.
   const auto voxels = std::make_shared<const VoxelGrid>(baked(cloudyScene(), 40.0));
   scene.camera.position = {3000.0, -2000.0, 100.0};

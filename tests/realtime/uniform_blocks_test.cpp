@@ -16,12 +16,22 @@
 namespace welkin::realtime {
 namespace {
 
-constexpr const char* kFiles[] = {
-    "welkin/base/law.glsl",          "welkin/light/phase.glsl",           "welkin/light/transmittance.glsl",
-    "welkin/noise/hash.glsl",        "welkin/noise/lattice.glsl",         "welkin/noise/remap.glsl",
-    "welkin/density/space.glsl",     "welkin/density/weather.glsl",       "welkin/density/profile.glsl",
-    "welkin/density/nubis.glsl",     "welkin/density/sheet.glsl",         "welkin/atmosphere/atmosphere.glsl",
-    "welkin/atmosphere/models.glsl", "welkin/realtime/march_params.glsl", "welkin/realtime/shaders/frame.glsl"};
+constexpr const char* kFiles[] = {"welkin/base/law.glsl",
+                                  "welkin/light/phase.glsl",
+                                  "welkin/light/transmittance.glsl",
+                                  "welkin/noise/hash.glsl",
+                                  "welkin/noise/lattice.glsl",
+                                  "welkin/noise/remap.glsl",
+                                  "welkin/density/space.glsl",
+                                  "welkin/density/weather.glsl",
+                                  "welkin/density/profile.glsl",
+                                  "welkin/density/nubis.glsl",
+                                  "welkin/density/sheet.glsl",
+                                  "welkin/atmosphere/atmosphere.glsl",
+                                  "welkin/atmosphere/models.glsl",
+                                  "welkin/realtime/light_volume.glsl",
+                                  "welkin/realtime/march_params.glsl",
+                                  "welkin/realtime/shaders/frame.glsl"};
 
 using Offsets = std::map<std::string, std::size_t>;
 

@@ -269,6 +269,13 @@ FN Mask insideLevel(IN(Vec2) uv, IN(Real) margin) {
   return max(abs(uv.x - 0.5f), abs(uv.y - 0.5f)) < 0.5f - margin;
 }
 
+// 1 / edge of a level.
+FN Real levelScale(IN(ClipParams) clip, IN(Real) level) {
+  Real scale = select(level > 0.5f, Real(clip.level1.inverseSize), Real(clip.level0.inverseSize));
+  scale = select(level > 1.5f, Real(clip.level2.inverseSize), scale);
+  return select(level > 2.5f, Real(clip.level3.inverseSize), scale);
+}
+
 // Where the cached weather of p stands, (u, v, layer): the finest level that holds it. `dither` in [0, 1) moves the
 // border of the levels a little, so that it does not show.
 FN Vec3 weatherPlace(IN(ClipParams) clip, IN(Vec2) p, IN(Real) dither) {

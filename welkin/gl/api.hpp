@@ -16,7 +16,8 @@ namespace welkin::gl {
   F(BLENDEQUATIONSEPARATE, BlendEquationSeparate) F(BLENDFUNCSEPARATE, BlendFuncSeparate) \
   F(BLITFRAMEBUFFER, BlitFramebuffer) F(BUFFERDATA, BufferData) F(BUFFERSUBDATA, BufferSubData) \
   F(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) F(CLEAR, Clear) F(CLEARCOLOR, ClearColor) \
-  F(COLORMASK, ColorMask) F(COMPILESHADER, CompileShader) F(CREATEPROGRAM, CreateProgram) \
+  F(COLORMASK, ColorMask) F(COMPILESHADER, CompileShader) F(COPYTEXSUBIMAGE3D, CopyTexSubImage3D) \
+  F(CREATEPROGRAM, CreateProgram) \
   F(CREATESHADER, CreateShader) F(DELETEBUFFERS, DeleteBuffers) F(DELETEFRAMEBUFFERS, DeleteFramebuffers) \
   F(DELETEPROGRAM, DeleteProgram) F(DELETEQUERIES, DeleteQueries) F(DELETESAMPLERS, DeleteSamplers) \
   F(DELETESHADER, DeleteShader) F(DELETETEXTURES, DeleteTextures) F(DELETEVERTEXARRAYS, DeleteVertexArrays) \

@@ -21,7 +21,7 @@ struct ChoiceNames<PhaseModel> {
 // How clouds are lit in real time.
 struct LightingSettings {
   LightingModel model = LightingModel::physical;
-  PhaseModel phase = PhaseModel::lobes;
+  PhaseModel phase = PhaseModel::droplets;
   int octaves = 5;
   float contribution = 0.75f;
   float octaveExtinction = 0.6f;

@@ -5,6 +5,8 @@
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
 #include "welkin/realtime/grid.glsl"
+#include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/march_params.glsl"
+#include "welkin/realtime/lightning.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

@@ -2,7 +2,10 @@
 // the sample is for. That form is the fastest on wide SIMD machines, Mesa's software driver among them. The reader
 // supplies, before this file, `struct Sky` and
 //   Vec3 skyExtinction(Vec3 q, Real footprint, Mask full, Sky sky)
-// which answers (extinction in 1/m, profile, extinction times precipitation) of all layers at a point of cloud space.
+// which answers (extinction in 1/m, profile, extinction times precipitation) of all layers at a point of cloud space, and
+//   const int kLightVolume, Real skyCoarseness(Vec3 q, Sky), Real skySunDepth(Vec3 q, Sky), Vec2 skyDiffuse(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky)
+// whether there is a light volume, its optical depth toward the sun, its light without direction, and what of that comes
+// down below the clouds.
 
 struct MarchResult {
   Vec3 radiance;      // light that the clouds send, without the air in between
@@ -47,6 +50,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   }
   tEnd = min(min(tEnd, min(tGround, limit)), m.maxDistance);
   Mask drawGround = both(both(hitsGround, tGround <= limit), toMask(m.groundAlbedo.w > 0.0f));
+  Mask marchGround = both(drawGround, toMask(kLightVolume == 0));
 
   // Octaves of multiple scattering (Wrenninge 2013, Hillaire 2016): each with less energy, less extinction and a rounder
   // phase function than the one before.
@@ -68,6 +72,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     octaveGain *= m.contribution;
     roundness *= m.eccentricity;
   }
+  Real broad = phaseHenyeyGreenstein(cosTheta, Real(0.6f));
   Real steps = mix(Real(float(m.fixedStepsHorizon)), Real(float(m.fixedSteps)), abs(dot(dir, up)));
   Real rayStep = max((tEnd - t) / max(steps, 1.0f), 1.0f);
   Real lastStep = clamp(t * m.stepScale, m.minStep, m.maxStep);
@@ -75,7 +80,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   t += jitter.x * lastStep;
 
   // mode: 0 along the ray, 1 toward the sun, 2 upward, 3 from the ground toward the sun, 4 done.
-  Real mode = select(t < tEnd, Real(0.0f), select(drawGround, Real(3.0f), Real(4.0f)));
+  Real mode = select(t < tEnd, Real(0.0f), select(marchGround, Real(3.0f), Real(4.0f)));
   Real k = 0.0f;          // number of the sample within its mode
   Real fineLeft = 0.0f;   // refined steps to go
   Real zeros = 0.0f;      // full samples without cloud, one after the other
@@ -119,6 +124,13 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     if (m.nubis != 0) full = both(full, either(along, transmittance > 0.7f));
     Vec3 found = skyExtinction(q, footprint, full, sky);
     samples += select(mode < 3.5f, Real(1.0f), Real(0.0f));
+    Real beyond = 0.0f;  // optical depth toward the sun where the steps toward it end
+    Vec2 spread = Vec2(0.0f);
+    if (kLightVolume != 0) {
+      beyond = skySunDepth(cloudSpace(dir * t + sun * (lightAt + lightStep), m.planet), sky);
+      // The light that comes toward the eye has set out deeper inside.
+      spread = skyDiffuse(cloudSpace(dir * (t + m.transportPath), m.planet), sky);
+    }
 
     // Along the ray: find cloud, refine its edge, then light the point.
     Mask cloud = both(along, found.x > 0.0f);
@@ -151,12 +163,15 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     groundTau += select(fromGround, found.x * (shell / (float(m.groundSteps) * slant)), Real(0.0f));
     k = select(either(light, empty), Real(0.0f), k + 1.0f);
     Mask sunDone = both(toSun, k > float(m.lightSteps) - 0.5f);
+    tau += select(sunDone, beyond, Real(0.0f));
     Mask upDone = both(upward, k > float(m.ambientSteps) - 0.5f);
     Real first = kLightFirst;
     if (m.nubis != 0) first = Real(shell * 0.03f);
     lightAt = select(light, Real(0.0f), select(either(toSun, upward), lightAt + lightStep, lightAt));
     if (m.nubis != 0) lightAt = select(either(light, both(toSun, k < 4.5f)), first * (k + 1.0f),
                                        select(toSun, first * 18.0f, lightAt));
+    // The light volume is as fine as the steps toward the sun that come before it.
+    if (kLightVolume != 0) first = first * skyCoarseness(q, sky);
     lightStep = select(light, first, lightStep);
     if (m.nubis == 0) lightStep = select(both(toSun, invert(sunDone)), lightStep * m.lightRatio, lightStep);
     lightStep = select(both(upward, invert(upDone)), lightStep * kAmbientRatio, lightStep);
@@ -187,13 +202,23 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
         reach *= m.octaveExtinction;
       }
       source = sunlight * (scattered * powder);
+      if (kLightVolume != 0) {
+        // What has been scattered forward goes on in nearly the same direction, the rest spreads.
+        Real forward = exp(-kReduced * thick) - exp(-thick);
+        source = sunlight * (phases[0] * exp(-thick) + broad * forward + (spread.x + m.beam * exp(-kReduced * thick)) * 0.318309886f);
+        source += xyz(m.ambientSky) * spread.y + xyz(m.ambientGround) * (1.0f - spread.y);
+      } else {
       Real above = sigma * max(q.z - m.bottom, 0.0f);
       source += xyz(m.ambientSky) * (m.ambientSky.w * 0.75f * exp(-0.12f * tauUp));
       // Deep inside, light has lost its direction and falls off as in two-stream theory with g = 0.86.
       Real over = tauUp * (1.0f + m.rainAbsorption * rain);
       source += xyz(m.diffused) * (m.diffused.w * (1.0f - exp(-0.12f * tauUp)) / (1.0f + 0.105f * over));
       source += xyz(m.ambientGround) * (m.ambientGround.w * (0.5f * exp(-0.072f * above) + 0.03f));
+      }
     }
+#ifdef LIGHTNING
+    source += skyLightning(cloudSpace(dir * t, m.planet), sigma, sky);
+#endif
     Real stride = select(fineLeft > 0.5f, 0.25f * spacing, spacing);
     Real kept = exp(-sigma * stride);
     Real weight = select(shade, transmittance * (1.0f - kept), Real(0.0f));
@@ -210,7 +235,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
 
     // The ray's end, then the ground's.
     Mask rayDone = both(mode < 0.5f, either(t >= tEnd, transmittance < m.earlyExit));
-    Mask needGround = both(drawGround, transmittance > 0.004f);
+    Mask needGround = both(marchGround, transmittance > 0.004f);
     mode = select(rayDone, select(needGround, Real(3.0f), Real(4.0f)), mode);
     k = select(rayDone, Real(0.0f), k);
     mode = select(both(fromGround, k > float(m.groundSteps) - 0.5f), Real(4.0f), mode);
@@ -220,9 +245,11 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   r.radiance = radiance;
   r.transmittance = select(transmittance < m.earlyExit, Real(0.0f), transmittance);
   r.depth = select(depthWeight > 1e-4f, depthSum / max(depthWeight, 1e-4f), Real(m.maxDistance));
+  if (kLightVolume != 0) groundTau = skySunDepth(cloudSpace(dir * tGround, m.planet), sky);
   // Direct light, and what the cloud scatters down (two-stream, g = 0.86), of which about half falls elsewhere.
   Real direct = exp(-min(groundTau, 40.0f));
-  Real lit = direct + 0.5f * (1.0f - direct) / (1.0f + 0.105f * groundTau);
+  Real lit = direct;
+  if (kLightVolume == 0) lit = direct + 0.5f * (1.0f - direct) / (1.0f + 0.105f * groundTau);
   r.ground = select(drawGround, lit, Real(-1.0f));
   r.groundDepth = tGround;
   r.samples = samples;

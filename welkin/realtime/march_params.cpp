@@ -14,6 +14,8 @@ namespace {
 constexpr int kZenithSteps = 64, kHorizonSteps = 128;
 constexpr float kStepPerMetre = 0.004f, kMinStep = 12.0f, kMaxStep = 250.0f;  // look: the coarsest without hatching
 constexpr float kFar = 300000.0f;                                             // m, where clouds have faded into the air
+constexpr int kNearSteps = 3;  // toward the sun before the light volume: 15, 30 and 60 m, about a texel of it
+constexpr float kNearRatio = 2.0f;
 constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets; a test counts
 
 // How much of a closed layer's depth the marches toward the light have to see, lest its underside be lit as if sun and
@@ -66,6 +68,11 @@ Veil veilOf(const Scene& scene) {
   return veil;
 }
 
+// Sunlight on its way through a cloud that has been turned aside but once or twice counts as light without direction,
+// by this share of an irradiance of 1 (isotropic: 1/4), since what the light volume's cells know of it is blurred:
+// fitted to the path tracer on bench/error.cpp's cumulus and stratocumulus together with light_volume.cpp's kBeam.
+constexpr float kBeam = 0.04f;
+
 // Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
 // top: by eye, until it is fitted to a reference.
 constexpr float kDiffusedShare = 0.22f;
@@ -109,7 +116,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.skyIrradiance = glm::vec4(diffuse, albedo);
   // Air in the shade sees the clouds above, the gaps between them, and the ground.
   const glm::vec3 below = 0.5f * (glm::vec3(1.0f) + scene.ground.albedo);
-  m.shadedAir = glm::vec4(below * diffuse / 3.14159265f, veil.cover);
+  m.shadedAir = q.lightVolume && l.model != LightingModel::nubis ? glm::vec4(below / 3.14159265f, 0.0f)
+                                                                 : glm::vec4(below * diffuse / 3.14159265f, veil.cover);
   m.stepScale = kStepPerMetre * q.stepScale;
   m.minStep = kMinStep * std::min(q.stepScale, 1.5f);
   m.maxStep = kMaxStep;
@@ -123,6 +131,11 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.backwardG = l.backwardG;
   m.backwardWeight = l.backwardWeight;
   m.rainAbsorption = l.rainAbsorption;
+  // 1 / ((1 - g) extinction) times g; most of a cloud is thinner than its layer's extinction.
+  float extinction = 0.0f;
+  for (const Layer& layer : scene.layers) extinction = std::max(extinction, 0.75f * layer.cloud.extinction);
+  m.transportPath = std::min(0.86f / (0.14f * std::max(extinction, 1e-4f)), 300.0f);
+  m.beam = kBeam;
   m.octaves = l.octaves;
   if (l.phase == PhaseModel::droplets && !scene.layers.empty()) {
     const law::MiePhase mie = phaseOf(scene.layers.front().cloud);
@@ -136,6 +149,12 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   // A step of the ground's light is no longer than the edges of shadows are wide; without limit it would cost too much.
   m.groundSteps = static_cast<int>(std::clamp((m.top - m.bottom) / 150.0f, 32.0f, 96.0f));
   m.lightRatio = lightRatio(q.lightSteps, lightReach(closedDepth(scene), sunHeight));
+  if (q.lightVolume && l.model != LightingModel::nubis) {
+    // The light volume sees the rest.
+    m.lightSteps = std::min(q.lightSteps, kNearSteps);
+    m.ambientSteps = 0;
+    m.lightRatio = kNearRatio;
+  }
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;
     m.lightSteps = 6;

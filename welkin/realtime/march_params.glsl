@@ -8,7 +8,8 @@ struct MarchParams {
   vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
   vec4 groundAlbedo;    // w: 1 when the ground is drawn
   vec4 skyIrradiance;   // on the ground, clouds counted in, klx; w: albedo of the droplets
-  vec4 shadedAir;       // radiance of air in the clouds' shade in kcd/m^2, w: share of the air below that lies there
+  vec4 shadedAir;       // radiance of air in the clouds' shade in kcd/m^2, w: share of the air below that lies there;
+                        // with a light volume: radiance for each klx that comes down there
   vec4 droplets;        // MiePhase of the first scattering
   float bottom, top, stepScale, minStep;
   float maxStep, maxDistance, earlyExit, footprintPerMetre;
@@ -18,5 +19,7 @@ struct MarchParams {
   int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
   int maxTurns, groundSteps, useDroplets, spare0;
   float lightRatio;  // each step toward the sun against the last
-  float spare1, spare2, spare3;
+  float transportPath;  // m, on which light inside the clouds forgets its direction
+  float beam;           // share of the sun's light that reaches a place, counted as light without direction
+  float skyBehind;      // 1 when the sky of the table stands behind the clouds, 0 for the host's picture
 };

@@ -9,14 +9,43 @@ FN Vec3 sheetSource(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Vec3) su
          xyz(m.ambientGround) * 0.15f;
 }
 
-// The air between the camera and what it sees; from below the clouds a part of it lies in their shade, where light comes
-// from all sides and is white.
-FN void airBefore(IN(Vec3) dir, IN(Real) distance, IN(MarchParams) m, IN(AtmosphereParams) air,
+// Air that clouds shade: how much of it does not see the sun, and the radiance of that part, which is lit from all sides,
+// in kcd/m^2.
+struct ShadedAir {
+  Vec3 radiance;
+  Real share;
+};
+
+// The air on the way to `distance`, with a light volume: samples where light is scattered toward the eye, `loss` being
+// what a metre of it takes away.
+FN ShadedAir shadedAir(IN(Vec3) dir, IN(Real) distance, IN(Real) loss, IN(Real) jitter, IN(Vec3) sunlight,
+                       IN(MarchParams) m, IN(Sky) sky) {
+  ShadedAir s;
+  s.radiance = xyz(m.shadedAir);
+  s.share = Real(m.shadedAir.w);
+  if (kLightVolume == 0 && m.planet.altitude >= m.bottom) s.share = Real(0.0f);
+  if (kLightVolume != 0) {
+    Real end = 1.0f - exp(-loss * distance);
+    Real dark = 0.0f;
+    Vec2 below = Vec2(0.0f);
+    for (int i = 0; i < 4; ++i) {
+      Real t = -log(max(1.0f - end * (0.25f * (float(i) + jitter)), 1e-6f)) / max(loss, 1e-7f);
+      Vec3 q = cloudSpace(dir * min(t, distance), m.planet);
+      dark += 0.25f * (1.0f - exp(-skySunDepth(q, sky)));
+      below = below + 0.25f * skyBelow(Vec2(q.x, q.y), sky);
+    }
+    s.share = dark;
+    s.radiance = (sunlight * below.x + xyz(m.ambientSky) * (3.14159265f * below.y)) * xyz(m.shadedAir);
+  }
+  return s;
+}
+
+// The air between the camera and what it sees.
+FN void airBefore(IN(Vec3) dir, IN(Real) distance, IN(ShadedAir) shaded, IN(AtmosphereParams) air,
                   IN(Sampler3) aerialInscatter, IN(Sampler3) aerialTransmittance, OUT(Vec3) inscatter,
                   OUT(Vec3) through) {
   lookupAerial(aerialInscatter, aerialTransmittance, air, dir, distance, inscatter, through);
-  if (m.planet.altitude < m.bottom)
-    inscatter = mix(inscatter, xyz(m.shadedAir) * (Vec3(1.0f) - through), Real(m.shadedAir.w));
+  inscatter = mix(inscatter, shaded.radiance * (Vec3(1.0f) - through), shaded.share);
 }
 
 FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams) m, IN(AtmosphereParams) air,
@@ -38,11 +67,25 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   MarchResult r = march(dir, limit, sunLow, sunHigh, jitter, m, sky);
   Vec3 inscatter = Vec3(0.0f);
   Vec3 through = Vec3(1.0f);
-  airBefore(dir, r.depth, m, air, aerialInscatter, aerialTransmittance, inscatter, through);
+  Mask ground = r.ground > -0.5f;
+  Real tGround = select(ground, r.groundDepth, Real(0.0f));
+  // As far as the air may be shaded: to the cloud, the ground, or out of the clouds' shell.
+  Vec2 leave = crossings(dir, m.top, m.planet);
+  Real reach = select(ground, tGround, max(leave.y, 0.0f));
+  reach = min(select(r.transmittance < 0.5f, min(r.depth, reach), reach), min(limit, Real(m.maxDistance)));
+  lookupAerial(aerialInscatter, aerialTransmittance, air, dir, reach, inscatter, through);
+  Real loss = -log(clamp(through.y, 1e-4f, 1.0f)) / max(reach, 1.0f);
+  ShadedAir shaded = shadedAir(dir, reach, loss, jitter.y, sunLow, m, sky);
+  // What is seen past the clouds is the sky of its table, which knows no shade.
+  Vec3 missing = Vec3(0.0f);
+  if (kLightVolume != 0)
+    missing = (shaded.radiance * (Vec3(1.0f) - through) - inscatter) * (m.skyBehind * select(either(ground, limit < 5e7f), Real(0.0f), shaded.share));
+  airBefore(dir, r.depth, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
   Real fade = 1.0f - smoothstep(0.55f * m.maxDistance, 0.98f * m.maxDistance, r.depth);
   Real opacity = (1.0f - r.transmittance) * fade;
   Vec3 radiance = (r.radiance * through) * fade + inscatter * opacity;
   Real kept = 1.0f - opacity;
+  radiance = radiance + missing * kept;
   depth = r.depth;
   samples = r.samples;
 
@@ -69,13 +112,16 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
     depth = select(both(front, opaque > 0.1f), t, select(depth >= m.maxDistance, select(seen, t, depth), depth));
   }
 
-  Mask ground = r.ground > -0.5f;
-  Real tGround = select(ground, r.groundDepth, Real(0.0f));
   Vec3 normal = normalize(up * m.planet.up.w + dir * tGround);
   Real cosSun = max(dot(sun, normal), 0.0f);
   Vec3 lit = irradiance * lookupTransmittanceToSun(transmittance, air, Real(0.0f), dot(sun, normal));
-  Vec3 surface = xyz(m.groundAlbedo) * (lit * (cosSun * max(r.ground, 0.0f)) + xyz(m.skyIrradiance)) * 0.318309886f;
-  airBefore(dir, tGround, m, air, aerialInscatter, aerialTransmittance, inscatter, through);
+  Vec3 diffuse = xyz(m.skyIrradiance);
+  if (kLightVolume != 0) {
+    Vec2 below = skyBelow(Vec2(dir.x * tGround, dir.y * tGround), sky);
+    diffuse = sunLow * below.x + xyz(m.ambientSky) * (3.14159265f * below.y);
+  }
+  Vec3 surface = xyz(m.groundAlbedo) * (lit * (cosSun * max(r.ground, 0.0f)) + diffuse) * 0.318309886f;
+  airBefore(dir, tGround, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
   radiance = select(ground, radiance + (surface * through + inscatter) * kept, radiance);
   depth = select(both(ground, depth >= m.maxDistance), tGround, depth);
   kept = select(ground, Real(0.0f), kept);

@@ -13,26 +13,29 @@
 #include "welkin/gl/state.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/grid_atlas.hpp"
+#include "welkin/realtime/light_volume.hpp"
 #include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/noise_textures.hpp"
 #include "welkin/realtime/shader_sources.hpp"
 #include "welkin/realtime/sky_tables.hpp"
 #include "welkin/realtime/timers.hpp"
 #include "welkin/realtime/weather_levels.hpp"
+#include "welkin/scene/lightning.hpp"
 
 namespace welkin::realtime {
 
 namespace {
 
-constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3;
+constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
-// The uniform block "Layers" of the march.
+// The uniform block "Layers" of the passes that march through clouds.
 struct LayersBlock {
   law::LayerParams layers[kMaxLayers];
   law::ClipParams clips[kMaxLayers];
   law::SheetParams sheets[kMaxSheets];
   law::GridParams grids[kMaxGrids];
   law::AtmosphereParams air;
+  law::LightVolumeParams volume;
 };
 
 // Texture fetches of one density sample: every layer reads its weather and its noises.
@@ -85,21 +88,22 @@ struct Renderer::State {
   gl::Api gl;
   gl::VertexArray triangle;
   gl::Framebuffer framebuffer;
-  gl::UniformBuffer frameBuffer, layersBuffer, marchBuffer, weatherBuffer, nightBuffer;
+  gl::UniformBuffer frameBuffer, layersBuffer, marchBuffer, weatherBuffer, nightBuffer, lightningBuffer;
   SkyTables sky;
   Timers timers;
   Scene scene;
   bool hasScene = false;
-  int sceneNumber = 0;
+  int sceneNumber = 0, cloudsNumber = 0;
   Heavens heavens;
   gl::Program compositeMoon, compositeNight;
   glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};  // of the light: by night it is the moon's
   gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
   std::vector<gl::Texture> maps;
   std::unique_ptr<WeatherLevels> weather;
+  std::unique_ptr<LightVolume> light;
   GridAtlas grids;
   std::vector<PlacedGrid> placedGrids;  // that it was made of
-  gl::Program march, resolve, resolveAveraged, resolveFirstRound, composite, weatherProgram;
+  gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, composite, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
@@ -108,7 +112,7 @@ struct Renderer::State {
 
   explicit State(const gl::Loader& loader)
       : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
-        nightBuffer(gl), sky(gl), timers(gl) {
+        nightBuffer(gl), lightningBuffer(gl), sky(gl), timers(gl) {
     triangle = gl::VertexArray(gl);
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
     white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
@@ -122,6 +126,20 @@ struct Renderer::State {
         gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
   }
 
+  // Whether another scene has the very clouds of this one, its textures being the renderer's own.
+  bool sameClouds(const Scene& next, const CustomTextures& custom) const {
+    const auto sameLayer = [](const Layer& a, const Layer& b) {
+      return sameFields(a.cloud, b.cloud) && sameFields(a.weather, b.weather) && sameFields(a.profile, b.profile) &&
+             sameFields(a.nubis, b.nubis);
+    };
+    return hasScene && !customised && custom.weatherMaps.empty() && custom.grids.empty() && placedGrids.empty() &&
+           scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
+           sameFields(scene.noise.profile, next.noise.profile) &&
+           sameFields(scene.noise.baseShape, next.noise.baseShape) &&
+           sameFields(scene.noise.detail, next.noise.detail) && sameFields(scene.noise.curl, next.noise.curl) &&
+           std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameLayer);
+  }
+
   static bool uses(const Scene& sky, LayerShape shape) {
     return std::any_of(sky.layers.begin(), sky.layers.end(), [&](const Layer& l) { return l.cloud.shape == shape; });
   }
@@ -129,7 +147,9 @@ struct Renderer::State {
   void makeTextures(const Scene& next, const CustomTextures& custom);
   void makeWeather(const Scene& next, const CustomTextures& custom);
   void makeGrids(const Scene& next, const CustomTextures& custom);
+  void makeLight();
   void makeMarch();
+  void bindClouds(const gl::Program& program, int unit) const;
   void makeTargets(View::State& view, const Frame& frame) const;
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const {
     gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
@@ -145,9 +165,10 @@ struct Renderer::State {
   // The passes, in order.
   void skyPass(const glm::dvec3& position);
   void weatherPass(const glm::dvec3& position, const Drift& drift);
-  void marchPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
-                 const FrameParams& params);
+  void lightPass(const Frame& frame, const glm::dvec3& position, const Drift& drift, const FrameParams& params);
+  void marchPass(View::State& view, const Frame& frame);
   void resolvePass(View::State& view, const gl::Program& program);
+  void lightningOf(const glm::dvec3& position, double time);
   void compositePass(const View::State& view, const Frame& frame);
   const gl::Program& compositeProgram();
   float exposure() const;
@@ -206,12 +227,18 @@ void Renderer::State::makeMarch() {
         "inGrid = gridExtinction(q, uGrid[{}], uGridIndex, uGridBricks); "
         "sum = vec3(sum.x + inGrid.x, max(sum.y, inGrid.y), sum.z); ",
         i);
+  const std::string clouds =
+      fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n",
+                  kMaxLayers, scene.sheets.size(), kMaxGrids, layers);
   const std::string defines =
-      fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n{}",
-                  kMaxLayers, scene.sheets.size(), kMaxGrids, layers, counting ? "#define COUNT_SAMPLES\n" : "");
-  if (defines == marchDefines) return;
-  march = gl::Program(gl, "march", defines, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
-  marchDefines = defines;
+      clouds + (counting ? "#define COUNT_SAMPLES\n" : "") + (light ? "#define LIGHT_VOLUME\n" : "");
+  const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
+  if (text == marchDefines) return;
+  if (light)
+    lightProgram = gl::Program(gl, "light density", clouds, fileText("welkin/realtime/shaders/light_density.frag.glsl"),
+                               shaderSource);
+  march = gl::Program(gl, "march", text, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
+  marchDefines = text;
 }
 
 void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
@@ -223,12 +250,14 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.gl.BindVertexArray(s.triangle.id());
   s.heavens = heavensOf(scene.sun, scene.moon, scene.night);
   s.sunDirection = s.heavens.lights.light.direction;
+  if (!s.sameClouds(scene, textures)) ++s.cloudsNumber;
   s.makeTextures(scene, textures);
   s.makeWeather(scene, textures);
   s.makeGrids(scene, textures);
   s.userSky = textures.sky;
   s.scene = scene;
   s.hasScene = true;
+  s.makeLight();
   ++s.sceneNumber;
   s.makeMarch();
 }
@@ -255,6 +284,14 @@ void Renderer::State::makeWeather(const Scene& next, const CustomTextures& custo
       throw Error(ErrorKind::badInput, "", "the weather map '" + name + "' was not handed to the renderer");
     maps.push_back(given ? textureFromVolume(gl, custom.weatherMaps[i]) : gl::Texture());
   }
+}
+
+void Renderer::State::makeLight() {
+  const bool clouds = !scene.layers.empty() || grids.count() > 0;
+  if (!clouds || !scene.quality.lightVolume || scene.lighting.model == LightingModel::nubis)
+    light.reset();
+  else if (!light || light->preset() != scene.quality.preset)
+    light = std::make_unique<LightVolume>(gl, scene.quality.preset);
 }
 
 void Renderer::State::makeGrids(const Scene& next, const CustomTextures& custom) {
@@ -306,7 +343,8 @@ void Renderer::State::weatherPass(const glm::dvec3& position, const Drift& drift
                     framebuffer, weatherBuffer, maps[i] ? maps[i] : white);
 }
 
-void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
+// What the passes that march need to know, and the volume of light.
+void Renderer::State::lightPass(const Frame& frame, const glm::dvec3& position, const Drift& drift,
                                 const FrameParams& params) {
   LayersBlock block{};
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
@@ -321,11 +359,42 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
     shells.push_back(grids.shell(i));
   }
   block.air = sky.params().air;
-  layersBuffer.upload(&block, sizeof block);
-  const law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), params.options.w,
-                                         frame.background == Background::skyAndGround, shells);
+  law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), params.options.w,
+                                   frame.background == Background::skyAndGround, shells);
+  m.skyBehind = frame.background == Background::host ? 0.0f : 1.0f;
   marchBuffer.upload(&m, sizeof m);
+  if (light) block.volume = light->place(glm::dvec2(position), drift, {m.bottom, m.top}, sunDirection, cloudsNumber);
+  layersBuffer.upload(&block, sizeof block);
+  if (!light || !light->stale()) return;
+  gl.UseProgram(lightProgram.id());
+  lightProgram.bindBlock("Layers", kLayersBlock);
+  layersBuffer.bind(kLayersBlock);
+  bindClouds(lightProgram, 0);
+  light->draw(lightProgram, framebuffer);
+}
 
+void Renderer::State::bindClouds(const gl::Program& program, int unit) const {
+  if (weather) {
+    bind(program, "uWeather", weather->main(), unit++);
+    bind(program, "uExtra", weather->extra(), unit++);
+  }
+  if (uses(scene, LayerShape::profile)) {
+    bind(program, "uBaseNoise", profileBase, unit++);
+    bind(program, "uDetailNoise", profileDetail, unit++);
+    bind(program, "uWarpNoise", profileWarp, unit++);
+  }
+  if (uses(scene, LayerShape::nubis)) {
+    bind(program, "uNubisBase", nubisBase, unit++);
+    bind(program, "uNubisDetail", nubisDetail, unit++);
+    bind(program, "uCurl", curl, unit++);
+  }
+  if (grids.count() > 0) {
+    bind(program, "uGridIndex", grids.index(), unit++);
+    bind(program, "uGridBricks", grids.bricks(), unit++);
+  }
+}
+
+void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   std::vector<const gl::Texture*> targets{&view.marched, &view.marchedDepth};
   if (counting) targets.push_back(&view.samples);
   framebuffer.target(targets);
@@ -333,6 +402,10 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
   march.bindBlock("Frame", kFrameBlock);
   march.bindBlock("Layers", kLayersBlock);
   march.bindBlock("March", kMarchBlock);
+  if (scene.lightning.rate > 0.0f) {
+    march.bindBlock("Lightning", kLightningBlock);
+    lightningBuffer.bind(kLightningBlock);
+  }
   frameBuffer.bind(kFrameBlock);
   layersBuffer.bind(kLayersBlock);
   marchBuffer.bind(kMarchBlock);
@@ -341,24 +414,11 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame, const glm
   bind(march, "uAerialInscatter", sky.aerialInscatter(), unit++);
   bind(march, "uAerialTransmittance", sky.aerialTransmittance(), unit++);
   bindHostDepth(march, frame, unit++);
-  if (weather) {
-    bind(march, "uWeather", weather->main(), unit++);
-    bind(march, "uExtra", weather->extra(), unit++);
+  if (light) {
+    bind(march, "uSun", light->sun(), unit++);
+    bind(march, "uDiffuse", light->diffuse(), unit++);
   }
-  if (uses(scene, LayerShape::profile)) {
-    bind(march, "uBaseNoise", profileBase, unit++);
-    bind(march, "uDetailNoise", profileDetail, unit++);
-    bind(march, "uWarpNoise", profileWarp, unit++);
-  }
-  if (uses(scene, LayerShape::nubis)) {
-    bind(march, "uNubisBase", nubisBase, unit++);
-    bind(march, "uNubisDetail", nubisDetail, unit++);
-    bind(march, "uCurl", curl, unit++);
-  }
-  if (grids.count() > 0) {
-    bind(march, "uGridIndex", grids.index(), unit++);
-    bind(march, "uGridBricks", grids.bricks(), unit++);
-  }
+  bindClouds(march, unit);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   if (!counting) return;
   std::vector<float> counts(static_cast<std::size_t>(view.samples.width()) * view.samples.height());
@@ -383,6 +443,17 @@ void Renderer::State::resolvePass(View::State& view, const gl::Program& program)
   bind(program, "uHistory", view.history[static_cast<std::size_t>(view.current)], 2);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   view.current = 1 - view.current;
+}
+
+// The flash of this moment, for a march that was compiled for it.
+void Renderer::State::lightningOf(const glm::dvec3& position, double time) {
+  if (scene.lightning.rate <= 0.0f) return;
+  law::LightningParams l{};
+  if (const std::optional<Flash> flash = flashAt(scene, glm::dvec2(position), time))
+    l.flash = glm::vec4(glm::vec3(glm::dvec2(flash->position) - glm::dvec2(position), flash->position.z),
+                        static_cast<float>(flash->intensity));
+  l.colour = glm::vec4(0.86f, 1.0f, 1.41f, 0.0f);  // a plasma of 10,000 K and more, as the moon sees it: violet-white
+  lightningBuffer.upload(&l, sizeof l);
 }
 
 // Moon and stars are variants, since the software driver runs all of a shader.
@@ -465,11 +536,14 @@ void Renderer::render(View& view, const Frame& frame) {
   s.frameBuffer.upload(&params, sizeof params);
 
   s.timers.begin();
+  s.lightningOf(position, frame.time);
   s.skyPass(position);
   s.timers.mark("sky tables");
   s.weatherPass(position, drift);
   s.timers.mark("weather");
-  s.marchPass(v, frame, position, drift, params);
+  s.lightPass(frame, position, drift, params);
+  s.timers.mark("light volume");
+  s.marchPass(v, frame);
   s.timers.mark("march");
   const bool average = s.scene.quality.averageHistory && history != History::none;
   s.resolvePass(v, history == History::begun ? s.resolveFirstRound : average ? s.resolveAveraged : s.resolve);
@@ -521,6 +595,11 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
     add("weather extra", s.weather->extra());
   }
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
+  if (s.light) {
+    add("light volume: density", s.light->density());
+    add("light volume: sun", s.light->sun());
+    add("light volume: diffuse", s.light->diffuse());
+  }
   add("grid index", s.grids.index());
   add("grid bricks", s.grids.bricks());
   add("no map", s.white);

@@ -9,8 +9,14 @@ std::string featuresOf(const Scene& scene) {
     if (shown) words += word;
   };
   add(!scene.layers.empty() || !scene.grids.empty(), "clouds");
+  add(scene.lightning.rate > 0.0f && !scene.layers.empty(), "lightning");
   add(!scene.sheets.empty(), "sheets");
   return words;
+}
+
+std::string tracedFeaturesOf(Scene scene) {
+  scene.lightning.rate = 0.0f;
+  return featuresOf(scene);
 }
 
 }  // namespace welkin

@@ -5,8 +5,10 @@
 
 namespace welkin {
 
-// What a sky has to show, as sorted words with commas between them ("clouds,sheets"). A renderer writes into
+// What a sky has to show, as sorted words with commas between them ("clouds,lightning,sheets"). A renderer writes into
 // Image::features those that it draws, so that `welkin compare` can refuse two pictures of different things.
 std::string featuresOf(const Scene& scene);
+// Those that the path tracer draws: it has no lightning.
+std::string tracedFeaturesOf(Scene scene);
 
 }  // namespace welkin

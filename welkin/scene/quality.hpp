@@ -21,6 +21,7 @@ struct Quality {
   bool earlyExit = true;
   bool jitter = true;
   bool reprojection = true;
+  bool lightVolume = true;
   bool averageHistory = false;
   bool cheapSearch = true;
   bool stepsByAngle = true;
@@ -40,6 +41,8 @@ struct FieldTable<Quality> {
         field<&Quality::refine>("refine", "finds the first hit of a ray by smaller steps"),
         field<&Quality::earlyExit>("early_exit", "ends a march where the cloud has become opaque"),
         field<&Quality::jitter>("jitter", "shifts the samples of every pixel and frame: noise instead of bands"),
+        field<&Quality::lightVolume>("light_volume",
+                                     "takes the light of what is farther off from a volume round the camera"),
         field<&Quality::reprojection>("reprojection", "reuses the pixels of earlier frames"),
         field<&Quality::averageHistory>("average_history",
                                         "softens reprojected pixels by the mean of their neighbours (000 ch. 4.4)"),

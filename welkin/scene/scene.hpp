@@ -29,6 +29,24 @@ struct FieldTable<Wind> {
   }
 };
 
+// Flashes inside the towers of thunderclouds, in real time.
+struct Lightning {
+  float rate = 0.0f;
+  int seed = 1;
+  float brightness = 1.0f;
+  bool freeze = false;
+};
+template <>
+struct FieldTable<Lightning> {
+  static auto make() {
+    return fieldRows(
+        field<&Lightning::rate>("rate", {0, 600}, {0, 60}, "flashes a minute within 60 km; 0: none"),
+        field<&Lightning::seed>("seed", {0, 2147483647}, {0, 100}, "other places and times of flashes"),
+        field<&Lightning::brightness>("brightness", {0, 1e6}, {0, 10}, "their light as a multiple, 1 is real"),
+        field<&Lightning::freeze>("freeze", "shows the nearest flash at its brightest all the time, for stills"));
+  }
+};
+
 // The ground: a sphere of one colour.
 struct Ground {
   glm::vec3 albedo{0.13f, 0.15f, 0.08f};
@@ -113,6 +131,7 @@ struct Scene {
   Night night;
   Atmosphere atmosphere;
   Wind wind;
+  Lightning lightning;
   Ground ground;
   LightingSettings lighting;
   Camera camera;

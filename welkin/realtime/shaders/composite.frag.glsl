@@ -43,7 +43,8 @@ void main() {
     outside += starlight(uNight, dir, uOptions.w);
 #endif
     behind += outside * lookupTransmittanceToSun(uTransmittance, uAir, uAir.cameraAltitude, dir.z);
-    oColour = vec4(cloud.rgb + cloud.a * min(behind * uWind.w * uOptions.x, vec3(60000.0)), 0.0);
+    // Clouds shade the air behind them, which makes their own share negative there.
+    oColour = vec4(max(cloud.rgb + cloud.a * min(behind * uWind.w * uOptions.x, vec3(60000.0)), vec3(0.0)), 0.0);
   } else {
     oColour = cloud;
   }

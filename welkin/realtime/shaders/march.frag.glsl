@@ -2,58 +2,38 @@
 #include "welkin/base/law.glsl"
 #include "welkin/light/phase.glsl"
 #include "welkin/light/transmittance.glsl"
-#include "welkin/noise/hash.glsl"
-#include "welkin/noise/lattice.glsl"
-#include "welkin/noise/remap.glsl"
-#include "welkin/density/space.glsl"
-#include "welkin/density/weather.glsl"
-#include "welkin/density/profile.glsl"
-#include "welkin/density/nubis.glsl"
-#include "welkin/density/sheet.glsl"
 #include "welkin/atmosphere/atmosphere.glsl"
 #include "welkin/atmosphere/scattering.glsl"
 #include "welkin/atmosphere/models.glsl"
 #include "welkin/atmosphere/sky.glsl"
 #include "welkin/realtime/shaders/frame.glsl"
+#include "welkin/realtime/shaders/sky_density.glsl"
 
-#include "welkin/realtime/grid.glsl"
-
-struct Sky {
-  float dither;
-};
-
-layout(std140) uniform Layers {
-  LayerParams uLayer[LAYER_SLOTS];
-  ClipParams uClip[LAYER_SLOTS];
-  SheetParams uSheet[4];
-  GridParams uGrid[GRID_SLOTS];
-  AtmosphereParams uAir;
-};
-
-uniform sampler3D uBaseNoise;
-uniform sampler3D uDetailNoise;
-uniform sampler3D uWarpNoise;
-uniform sampler3D uNubisBase;
-uniform sampler3D uNubisDetail;
-uniform sampler2D uCurl;
-uniform sampler3D uGridIndex;
-uniform sampler3D uGridBricks;
-uniform sampler2DArray uWeather;
-uniform sampler2DArray uExtra;
 uniform sampler2D uTransmittance;
 uniform sampler3D uAerialInscatter;
 uniform sampler3D uAerialTransmittance;
+uniform sampler3D uSun;
+uniform sampler3D uDiffuse;
 uniform sampler2D uHostDepth;
 
-vec3 skyExtinction(vec3 q, float footprint, bool full, Sky sky) {
-  vec3 sum = vec3(0.0, -1.0, 0.0);
-  vec3 found;
-  vec2 inGrid;
-  SKY_LAYERS
-  return sum;
-}
+#ifdef LIGHT_VOLUME
+const int kLightVolume = 1;
+#else
+const int kLightVolume = 0;
+#endif
+float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolume, uSun); }
+float skyCoarseness(vec3 q, Sky sky) { return lightVolumeCoarseness(q, sky.dither, uVolume); }
+vec2 skyDiffuse(vec3 q, Sky sky) { return textureLod(uDiffuse, lightVolumePlace(q, sky.dither, uVolume), 0.0).xy; }
 int skySheetCount(Sky sky) { return SHEET_COUNT; }
 SheetParams skySheet(int i, Sky sky) { return uSheet[i]; }
+
+vec2 skyBelow(vec2 p, Sky sky) { return lookupBelow(p, uVolume, uDiffuse); }
+
+#ifdef LIGHTNING
+#include "welkin/realtime/lightning.glsl"
+layout(std140) uniform Lightning { LightningParams uLightning; };
+vec3 skyLightning(vec3 q, float sigma, Sky sky) { return lightningLight(q, sigma, uLightning); }
+#endif
 
 #include "welkin/realtime/march_params.glsl"
 #include "welkin/realtime/march.glsl"

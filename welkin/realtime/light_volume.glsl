@@ -1,0 +1,69 @@
+// The light volume: what a lattice round the camera knows of light inside the clouds, in clip levels, one on top of the
+// other in volume textures. One holds the optical depth toward the sun; the other how much light without direction there
+// is (x: of the sun's, y: of the sky's), by diffusion.
+//
+// Diffusion: light that is scattered forward (g = .86) goes on as if nothing had happened; the rest, a share 1 - g of the
+// extinction, has forgotten its direction and spreads like heat. `u` is a quarter of the fluence of an irradiance of 1, so
+// that u / pi is the mean radiance. In units of flux, two surfaces are separated by a resistance of 3/4 of the reduced
+// optical depth between them and 1/2 at each boundary, which makes the transmittance of a slab 1 / (1 + 3/4 (1 - g) tau),
+// as in two-stream theory (Eddington's).
+
+struct LightVolumeParams {
+  ClipParams levels;
+  float bottom, inverseHeight;  // of the shell that it fills, m
+  float slices, inverseDepth;   // slices of a level; 1 / slices of all
+  vec4 shift;                   // xy: way of the sunlight across from one slice to the next, m
+};
+
+const float kReduced = 0.14f;  // share of the extinction that makes light forget where it came from
+
+const float kClearing = 250.0f;  // m: air is taken for clear where light goes so far before it meets a droplet
+
+// Where the volume holds what it knows of q.
+FN Vec3 lightVolumePlace(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v) {
+  Vec3 place = weatherPlace(v.levels, Vec2(q.x, q.y), dither);
+  Real slice = clamp((q.z - v.bottom) * v.inverseHeight * v.slices, 0.5f, v.slices - 0.5f);
+  return Vec3(place.x, place.y, (place.z * v.slices + slice) * v.inverseDepth);
+}
+
+// Width of the cells there against those of the finest level.
+FN Real lightVolumeCoarseness(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v) {
+  return v.levels.level0.inverseSize / levelScale(v.levels, weatherPlace(v.levels, Vec2(q.x, q.y), dither).z);
+}
+
+// Optical depth toward the sun. Between slices the light runs aslant, and so does the interpolation: straight up it would
+// mix the shadows of two slices side by side.
+FN Real lookupSunDepth(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v, IN(Sampler3) sun) {
+  Real at = (q.z - v.bottom) * v.inverseHeight * v.slices - 0.5f;
+  Real slice = clamp(at, 0.0f, v.slices - 1.0f);
+  // From below the way is followed up to the lowest slice.
+  Real down = max(-at, 0.0f);
+  Vec3 place = weatherPlace(v.levels, Vec2(q.x + v.shift.x * down, q.y + v.shift.y * down), dither);
+  Real below = floor(slice);
+  Real share = slice - below;
+  Vec2 scale = Vec2(v.shift.x, v.shift.y) * levelScale(v.levels, place.z);
+  Real first = place.z * v.slices + below + 0.5f;
+  Vec2 low = xy(place) - scale * share;
+  Vec2 high = xy(place) + scale * (1.0f - share);
+  Real a = sample3(sun, Vec3(low.x, low.y, first * v.inverseDepth)).x;
+  Real b = sample3(sun, Vec3(high.x, high.y, min(first + 1.0f, (place.z + 1.0f) * v.slices - 0.5f) * v.inverseDepth)).x;
+  return mix(a, b, share);
+}
+
+// The light that comes down on what lies below the clouds there, without direction, per irradiance of the sun and per
+// radiance of the sky times pi. What lies below sees much of the sky: the coarsest level.
+FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) diffuse) {
+  float last = float(v.levels.count) - 1.0f;
+  ClipLevel level = v.levels.level2;
+  if (v.levels.count > 3) level = v.levels.level3;
+  Vec2 uv = p * level.inverseSize + Vec2(level.offsetX, level.offsetY);
+  return 2.0f * xy(sample3(diffuse, Vec3(uv.x, uv.y, (last * v.slices + 0.5f) * v.inverseDepth)));
+}
+
+// How freely light passes from a cell of extinction `own` (1/m) to its neighbour of `other`, `h` m away (x), and through
+// what is clear of the neighbour to the surroundings (y); per m.
+FN Vec2 exchange(IN(Real) own, IN(Real) other, IN(float) h) {
+  float half_ = 0.375f * kReduced * h;
+  Real clear = exp(-kClearing * other);
+  return Vec2((1.0f - clear) / ((own + other) * half_ + 0.02f), clear / (own * half_ + 0.5f)) / h;
+}

@@ -1,0 +1,53 @@
+// Light volume, third pass: a step of relaxation toward the balance of diffusing light. Columns are solved exactly, with
+// their neighbours' light as it was. On the way down, slice by slice, the light of a cell is found as a share P of that of
+// the cell below plus Q; on the way up (light_column.frag.glsl) both are put together.
+#include "welkin/base/law.glsl"
+#include "welkin/noise/hash.glsl"
+#include "welkin/noise/lattice.glsl"
+#include "welkin/noise/remap.glsl"
+#include "welkin/density/weather.glsl"
+#include "welkin/realtime/light_volume.glsl"
+#include "welkin/realtime/shaders/light_level.glsl"
+
+uniform sampler3D uSun;      // optical depth toward the sun, all levels
+uniform sampler3D uDiffuse;  // the light that is known so far, all levels
+uniform sampler2D uShareAbove, uLightAbove;  // P and Q of the slice above
+uniform int uFirst;          // first slice of the level in the volumes of all levels
+
+in vec2 vUv;
+layout(location = 0) out vec4 oLight;
+layout(location = 1) out vec4 oShare;
+
+float densityAt(ivec3 cell) { return texelFetch(uDensity, cell, 0).x; }
+
+void main() {
+  ivec3 cell = ivec3(ivec2(gl_FragCoord.xy), int(uSlice.z));
+  int last = int(uLevel.w) - 1, top = int(uVolume.slices) - 1;
+  float own = densityAt(cell);
+  float width = uLevel.z / uLevel.w;
+  vec2 sum = vec2(0.0);
+  float weights = 0.0;
+  // Outside are the sky above, the ground below, half of each at the sides.
+  for (int i = 0; i < 4; ++i) {
+    ivec3 at = ivec3(clamp(cell.xy + ivec2(i == 0 ? -1 : i == 1 ? 1 : 0, i == 2 ? -1 : i == 3 ? 1 : 0), 0, last), cell.z);
+    vec2 way = exchange(own, densityAt(at), width);
+    sum += way.x * texelFetch(uDiffuse, at + ivec3(0, 0, uFirst), 0).xy + vec2(0.0, 0.5 * way.y);
+    weights += way.x + way.y;
+  }
+  vec2 up = exchange(own, cell.z == top ? 0.0 : densityAt(cell + ivec3(0, 0, 1)), uSlice.y);
+  sum.y += up.y;
+  weights += up.y;
+  if (cell.z < top) {
+    sum += up.x * texelFetch(uLightAbove, cell.xy, 0).xy;
+    weights += up.x * (1.0 - texelFetch(uShareAbove, cell.xy, 0).x);
+  }
+  vec2 down = exchange(own, cell.z == 0 ? 0.0 : densityAt(cell - ivec3(0, 0, 1)), uSlice.y);
+  weights += down.x + down.y;
+  // Sunlight that loses its way in this cell: the mean over its depth of an exponential that is known in its middle.
+  float reduced = kReduced * texelFetch(uDensity, cell, 0).y;
+  float half_ = clamp(0.5 * reduced * min(width, uSlice.y), 0.01, 4.0);
+  float tau = texelFetch(uSun, cell + ivec3(0, 0, uFirst), 0).x;
+  sum.x += reduced * exp(-kReduced * tau) * sinh(half_) / half_;
+  oLight = vec4(sum / weights, 0.0, 1.0);
+  oShare = vec4(down.x / weights);
+}
