@@ -202,6 +202,7 @@ void LightVolume::fillDiffuse(gl::Framebuffer& framebuffer, int level) {
   const int steps = now.known ? kNextSteps : kFirstSteps;
   for (int step = 0; step < steps; ++step) {
     use(diffusionPass_, level);
+    gl_.Uniform1f(diffusionPass_.uniform("uSideways"), coarsest && !now.known && step == 0 ? 0.0f : 1.0f);
     for (int s = slices_ - 1; s >= 0; --s) {
       const auto turn = static_cast<std::size_t>(s & 1);
       slice(diffusionPass_, s);

@@ -17,7 +17,7 @@ struct LightVolumeParams {
 
 const float kReduced = 0.14f;  // share of the extinction that makes light forget where it came from
 
-const float kClearing = 250.0f;  // m: air is taken for clear where light goes so far before it meets a droplet
+const float kClearing = 800.0f;  // m: air is taken for clear where light goes so far before it meets a droplet
 
 // Where the volume holds what it knows of q.
 FN Vec3 lightVolumePlace(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v) {

@@ -248,7 +248,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   if (kLightVolume != 0) groundTau = skySunDepth(cloudSpace(dir * tGround, m.planet), sky);
   // Direct light, and what the cloud scatters down (two-stream, g = 0.86), of which about half falls elsewhere.
   Real direct = exp(-min(groundTau, 40.0f));
-  Real lit = direct;
+  Real lit = exp(-kReduced * groundTau);  // what has been scattered forward arrives nearly from where it came
   if (kLightVolume == 0) lit = direct + 0.5f * (1.0f - direct) / (1.0f + 0.105f * groundTau);
   r.ground = select(drawGround, lit, Real(-1.0f));
   r.groundDepth = tGround;

@@ -80,7 +80,8 @@ constexpr float kDiffusedShare = 0.22f;
 }  // namespace
 
 law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
-                             const SkyLight& light, float pixelAngle, bool drawGround, std::span<const Shell> grids) {
+                             const SkyLight& light, float pixelAngle, bool drawGround, std::span<const Shell> grids,
+                             float gridExtinction) {
   const LightingSettings& l = scene.lighting;
   const Quality& q = scene.quality;
   law::MarchParams m{};
@@ -131,8 +132,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.backwardG = l.backwardG;
   m.backwardWeight = l.backwardWeight;
   m.rainAbsorption = l.rainAbsorption;
-  // 1 / ((1 - g) extinction) times g; most of a cloud is thinner than its layer's extinction.
-  float extinction = 0.0f;
+  // g / ((1 - g) extinction); most of a cloud is thinner than the most that there is.
+  float extinction = 0.75f * gridExtinction;
   for (const Layer& layer : scene.layers) extinction = std::max(extinction, 0.75f * layer.cloud.extinction);
   m.transportPath = std::min(0.86f / (0.14f * std::max(extinction, 1e-4f)), 300.0f);
   m.beam = kBeam;

@@ -31,7 +31,7 @@ FN ShadedAir shadedAir(IN(Vec3) dir, IN(Real) distance, IN(Real) loss, IN(Real) 
     for (int i = 0; i < 4; ++i) {
       Real t = -log(max(1.0f - end * (0.25f * (float(i) + jitter)), 1e-6f)) / max(loss, 1e-7f);
       Vec3 q = cloudSpace(dir * min(t, distance), m.planet);
-      dark += 0.25f * (1.0f - exp(-skySunDepth(q, sky)));
+      dark += 0.25f * (1.0f - exp(-kReduced * skySunDepth(q, sky)));
       below = below + 0.25f * skyBelow(Vec2(q.x, q.y), sky);
     }
     s.share = dark;

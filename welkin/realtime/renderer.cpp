@@ -103,6 +103,7 @@ struct Renderer::State {
   std::unique_ptr<LightVolume> light;
   GridAtlas grids;
   std::vector<PlacedGrid> placedGrids;  // that it was made of
+  float gridExtinction = 0.0f;          // their greatest, 1/m
   gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, composite, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
@@ -307,6 +308,9 @@ void Renderer::State::makeGrids(const Scene& next, const CustomTextures& custom)
   if (std::equal(placedGrids.begin(), placedGrids.end(), custom.grids.begin(), custom.grids.end(), same)) return;
   grids = GridAtlas(gl, custom.grids);
   placedGrids = custom.grids;
+  gridExtinction = 0.0f;
+  for (const PlacedGrid& grid : placedGrids)
+    gridExtinction = std::max(gridExtinction, grid.voxels->maximum() * static_cast<float>(grid.extinction));
 }
 
 void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
@@ -360,7 +364,7 @@ void Renderer::State::lightPass(const Frame& frame, const glm::dvec3& position, 
   }
   block.air = sky.params().air;
   law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), params.options.w,
-                                   frame.background == Background::skyAndGround, shells);
+                                   frame.background == Background::skyAndGround, shells, gridExtinction);
   m.skyBehind = frame.background == Background::host ? 0.0f : 1.0f;
   marchBuffer.upload(&m, sizeof m);
   if (light) block.volume = light->place(glm::dvec2(position), drift, {m.bottom, m.top}, sunDirection, cloudsNumber);

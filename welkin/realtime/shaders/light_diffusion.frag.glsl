@@ -12,6 +12,7 @@
 uniform sampler3D uSun;      // optical depth toward the sun, all levels
 uniform sampler3D uDiffuse;  // the light that is known so far, all levels
 uniform sampler2D uShareAbove, uLightAbove;  // P and Q of the slice above
+uniform float uSideways;     // 0 where nothing is known of neighbours yet: columns stand alone
 uniform int uFirst;          // first slice of the level in the volumes of all levels
 
 in vec2 vUv;
@@ -31,6 +32,7 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec3 at = ivec3(clamp(cell.xy + ivec2(i == 0 ? -1 : i == 1 ? 1 : 0, i == 2 ? -1 : i == 3 ? 1 : 0), 0, last), cell.z);
     vec2 way = exchange(own, densityAt(at), width);
+    way.x *= uSideways;
     sum += way.x * texelFetch(uDiffuse, at + ivec3(0, 0, uFirst), 0).xy + vec2(0.0, 0.5 * way.y);
     weights += way.x + way.y;
   }
