@@ -7,6 +7,7 @@
 
 #include "tests/realtime/stage.hpp"
 #include "welkin/atmosphere/moon.hpp"
+#include "welkin/scene/lightning.hpp"
 
 namespace welkin::realtime {
 namespace {
@@ -94,6 +95,29 @@ TEST(Night, MoonStandsInThePicture) {
     for (int x = 24; x < 40; ++x) sum += picture.at(x, y)[1] * pixel;
   const double outside = heavensOf(scene.sun, scene.moon, scene.night).lights.light.irradiance.y;
   EXPECT_NEAR(sum / outside, 0.78, 0.08) << "the air takes a fifth";
+}
+
+// A flash lights its tower; without light it leaves the sky alone, up to the rounding of another shader.
+TEST(Night, LightningLightsItsTower) {
+  Scene scene = night();
+  Layer& layer = scene.layers.front();
+  layer.cloud.thickness = 10000.0f;
+  layer.weather.coverage = 0.5f;
+  layer.weather.precipitation = 0.8f;
+  layer.weather.cellSize = 15000.0f;
+  Stage stage(96, 54);
+  scene.lightning.rate = 10.0f;
+  scene.lightning.freeze = true;
+  const auto flash = flashAt(scene, glm::dvec2(scene.camera.position), 0.0);
+  ASSERT_TRUE(flash);
+  const glm::dvec3 way = flash->position - scene.camera.position;
+  scene.camera.heading = static_cast<float>(std::atan2(way.x, way.y));
+  const double lit = luminanceOf(stage.draw(scene));
+  scene.lightning.brightness = 0.0f;
+  const double dark = luminanceOf(stage.draw(scene));
+  EXPECT_GT(lit, 2.0 * dark) << "other clouds stand before its tower";
+  scene.lightning.rate = 0.0f;
+  EXPECT_NEAR(luminanceOf(stage.draw(scene)) / dark, 1.0, 1e-4);
 }
 
 }  // namespace

@@ -217,7 +217,7 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
       }
     }
 #ifdef LIGHTNING
-    source += skyLightning(cloudSpace(dir * t, m.planet), sigma, sky);
+    source += skyLightning(cloudSpace(dir * t, m.planet), sky);
 #endif
     Real stride = select(fineLeft > 0.5f, 0.25f * spacing, spacing);
     Real kept = exp(-sigma * stride);

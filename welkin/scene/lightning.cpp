@@ -43,7 +43,7 @@ double strokes(std::uint32_t state, double t) {
     start += 0.04 + 0.03 * unitOf(state);
     strength = 0.3 + 0.7 * unitOf(state);
   }
-  return sum * kDuration / (kFading * 2.6);  // of four strokes, 2.6 times the first on the average
+  return sum * kDuration / (kFading * 2.95);  // of four strokes, 2.95 times the first on the average
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ vec2 skyBelow(vec2 p, Sky sky) { return lookupBelow(p, uVolume, uDiffuse); }
 #ifdef LIGHTNING
 #include "welkin/realtime/lightning.glsl"
 layout(std140) uniform Lightning { LightningParams uLightning; };
-vec3 skyLightning(vec3 q, float sigma, Sky sky) { return lightningLight(q, sigma, uLightning); }
+vec3 skyLightning(vec3 q, Sky sky) { return lightningLight(q, uLightning); }
 #endif
 
 #include "welkin/realtime/march_params.glsl"
