@@ -1,7 +1,7 @@
 // How far the real-time frame is from the path-traced one: twelve views (four kinds of cloud, the sun high, low and
-// behind the clouds), quality "high", 32 frames against a path-traced picture with the air as a medium. References are
-// without the sun's disc, which would outshine all else; references are
-// kept in the folder and traced again only when the sky, the size or the samples change.
+// behind the clouds), quality "high", 32 frames against a path-traced, denoised picture with the air as a medium. Both
+// without the sun's disc, which would outshine all else. References are kept in the folder and traced again only when
+// the sky, the size or the samples change.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <functional>
 #include <glm/trigonometric.hpp>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -18,7 +17,6 @@
 #include "welkin/base/metrics.hpp"
 #include "welkin/base/tone.hpp"
 #include "welkin/io/exr.hpp"
-#include "welkin/io/file.hpp"
 #include "welkin/io/png.hpp"
 #include "welkin/io/sky_file.hpp"
 #include "welkin/realtime/frame_params.hpp"
@@ -95,18 +93,6 @@ Image realtimeFrame(const Viewpoint& view, realtime::Offscreen& screen, const Op
   frame.output = realtime::Output::lightWithoutSunDisc;
   for (int i = 0; i < o.frames; ++i) screen.draw(frame);
   return screen.read();
-}
-
-Image withoutAlpha(const Image& image) {
-  Image rgb(image.width, image.height, 3);
-  for (std::size_t i = 0; i < rgb.pixels.size() / 3; ++i) std::copy_n(&image.pixels[4 * i], 3, &rgb.pixels[3 * i]);
-  return rgb;
-}
-
-std::vector<std::uint8_t> bytesOf(const Image& values) {
-  std::vector<std::uint8_t> bytes;
-  for (const float v : values.pixels) bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0f * v)));
-  return bytes;
 }
 
 Error compare(const Viewpoint& view, const Image& truth, const Image& frame, const Options& o) {

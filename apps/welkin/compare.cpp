@@ -95,15 +95,6 @@ Pair loadPair(const CompareArguments& arguments) {
   return {a, b, displayValues(a, tone), displayValues(b, tone), ev};
 }
 
-// PSNR over the colours alone.
-Image withoutAlpha(const Image& image) {
-  if (image.channels == 1 || image.channels == 3) return image;
-  Image out(image.width, image.height, image.channels - 1);
-  for (std::size_t i = 0; i < out.pixels.size(); ++i)
-    out.pixels[i] = image.pixels[i / out.channels * image.channels + i % out.channels];
-  return out;
-}
-
 nlohmann::ordered_json numberOrNull(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
@@ -136,15 +127,13 @@ void compare(const CompareArguments& arguments, bool json) {
   }
   const Pair pair = loadPair(arguments);
   const Image map = flipMap(pair.referenceShown, pair.testShown, arguments.ppd);
+  // PSNR over the colours alone.
   const Difference difference{psnr(withoutAlpha(pair.referenceShown), withoutAlpha(pair.testShown)),
                               relMse(pair.referenceLight, pair.testLight), meanOf(map),
                               meanLuminance(pair.testLight) / meanLuminance(pair.referenceLight)};
   if (!arguments.output.empty()) {
     const Image heat = heatMap(map);
-    std::vector<std::uint8_t> bytes(heat.pixels.size());
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-      bytes[i] = static_cast<std::uint8_t>(std::lround(255.0f * heat.pixels[i]));
-    savePng(arguments.output, heat.width, heat.height, 3, bytes);
+    savePng(arguments.output, heat.width, heat.height, 3, bytesOf(heat));
   }
   print(difference, pair, arguments, json);
 }

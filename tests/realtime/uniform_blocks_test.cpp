@@ -125,6 +125,7 @@ TEST_P(UniformBlocks, LieAsInCpp) {
       {"SheetParams", sizeof(law::SheetParams), "height", "kind", offsetof(law::SheetParams, kind)},
       {"AtmosphereParams", sizeof(law::AtmosphereParams), "groundRadius", "groundRadius",
        offsetof(law::AtmosphereParams, groundRadius)},
+      {"LightVolumeParams", sizeof(law::LightVolumeParams), "bottom", "shift", offsetof(law::LightVolumeParams, shift)},
       {"PreethamParams", sizeof(law::PreethamParams), "", "", 0},
       {"GradientParams", sizeof(law::GradientParams), "", "", 0},
       {"MarchParams", sizeof(law::MarchParams), "bottom", "maxTurns", offsetof(law::MarchParams, maxTurns)},

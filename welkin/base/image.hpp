@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct Image {
 
 // Refuses two pictures of different width, height or channels: Error (badInput).
 void requireSameShape(const Image& a, const Image& b);
+
+// The colours of a picture, a last channel of 2 or 4 left out.
+Image withoutAlpha(const Image& image);
+
+// Values in [0, 1] as bytes; what lies outside is clamped. NaN must not come.
+std::vector<std::uint8_t> bytesOf(const Image& values);
 
 // Peak signal-to-noise ratio in dB of two pictures of the same shape with values in [0, peak]; infinite when equal.
 double psnr(const Image& a, const Image& b, double peak = 1.0);

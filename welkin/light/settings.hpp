@@ -3,7 +3,8 @@
 
 namespace welkin {
 
-// physical: octaves of multiple scattering. nubis: six cone samples, Beer-powder (004 ch. 4.4).
+// physical: multiple scattering by diffusion in a light volume, or by octaves. nubis: six cone samples, Beer-powder
+// (004 ch. 4.4).
 enum class LightingModel { physical, nubis };
 template <>
 struct ChoiceNames<LightingModel> {
@@ -33,7 +34,7 @@ struct LightingSettings {
   float powder = 0.0f;
   float rainAbsorption = 1.0f;
   float ambient = 1.0f;
-  float groundBounce = 0.7f;
+  float groundBounce = 1.0f;
 };
 template <>
 struct FieldTable<LightingSettings> {
@@ -43,13 +44,16 @@ struct FieldTable<LightingSettings> {
         field<&LightingSettings::phase>("phase",
                                         "phase function of light that is scattered once: two lobes, or the fit to "
                                         "the first layer's droplets"),
-        field<&LightingSettings::octaves>("octaves", {1, 8}, {}, "octaves of multiple scattering"),
-        field<&LightingSettings::contribution>("contribution", {0, 1}, {}, "energy of each octave against the last"),
+        field<&LightingSettings::octaves>("octaves", {1, 8}, {},
+                                          "octaves of multiple scattering, where quality.light_volume is off"),
+        field<&LightingSettings::contribution>("contribution", {0, 1}, {},
+                                               "energy of each such octave against the last"),
         field<&LightingSettings::octaveExtinction>("octave_extinction", {0, 1}, {},
-                                                   "extinction of each octave against the last"),
+                                                   "extinction of each such octave against the last"),
         field<&LightingSettings::eccentricity>("eccentricity", {0, 1}, {},
-                                               "forward peak of each octave against the last"),
-        field<&LightingSettings::octaveGain>("octave_gain", {0, 4}, {0.5, 2}, "gain of every octave but the first"),
+                                               "forward peak of each such octave against the last"),
+        field<&LightingSettings::octaveGain>("octave_gain", {0, 4}, {0.5, 2},
+                                             "gain of every such octave but the first"),
         field<&LightingSettings::forwardG>("forward_g", {-0.99, 0.99}, {0, 0.95}, "mean cosine of the forward lobe"),
         field<&LightingSettings::backwardG>("backward_g", {-0.99, 0.99}, {-0.6, 0.2}, "mean cosine of the other lobe"),
         field<&LightingSettings::backwardWeight>("backward_weight", {0, 1}, {0, 0.5}, "share of the other lobe"),

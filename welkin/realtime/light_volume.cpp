@@ -38,7 +38,7 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     : gl_(gl), preset_(preset), sunPass_(pass(gl, "light_sun")), startPass_(pass(gl, "light_start")),
       diffusionPass_(pass(gl, "light_diffusion")), columnPass_(pass(gl, "light_column")), block_(gl) {
   const bool small = preset == QualityPreset::low || preset == QualityPreset::medium;
-  extent_ = {small ? 72 : 128, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
+  extent_ = {small ? 72 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
   slices_ = small ? 20 : 32;
   levels_.resize(static_cast<std::size_t>(extent_.levels));
   const auto volume = [&](const gl::Format& format, int levels) {
@@ -57,9 +57,15 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
   lightSlice_ = {plane(gl::kRg16F), plane(gl::kRg16F)};
 }
 
-std::size_t LightVolume::bytes() const {
-  return density_.bytes() + sun_.bytes() + diffuse_.bytes() + share_.bytes() + 2 * scalarSlice_[0].bytes() +
-         2 * lightSlice_[0].bytes();
+std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() const {
+  return {{"light volume: sun", &sun_},
+          {"light volume: diffuse", &diffuse_},
+          {"light volume: density", &density_},
+          {"light volume: share", &share_},
+          {"light volume: slice a", &scalarSlice_[0]},
+          {"light volume: slice b", &scalarSlice_[1]},
+          {"light volume: light slice a", &lightSlice_[0]},
+          {"light volume: light slice b", &lightSlice_[1]}};
 }
 
 law::LightVolumeParams LightVolume::place(const glm::dvec2& position, const Drift& drift, const Shell& shell,
@@ -83,7 +89,8 @@ law::LightVolumeParams LightVolume::place(const glm::dvec2& position, const Drif
   params_.inverseHeight = 1.0f / (shell.top - shell.bottom);
   params_.slices = static_cast<float>(slices_);
   const float rise = (shell.top - shell.bottom) / static_cast<float>(slices_);
-  params_.shift = glm::vec4(glm::vec2(sunward_) * (rise / std::max(sunward_.z, kLeastSlant)), 0.0f, 0.0f);
+  params_.shift = glm::vec4(glm::vec2(sunward_) * (rise / std::max(sunward_.z, kLeastSlant)),
+                            static_cast<float>(1.0 / kPlanetRadius), 0.0f);
   params_.inverseDepth = 1.0f / static_cast<float>(sun_.depth());
   for (int i = 0; i < extent_.levels; ++i) {
     Level& level = levels_[static_cast<std::size_t>(i)];

@@ -12,7 +12,7 @@ struct LightVolumeParams {
   ClipParams levels;
   float bottom, inverseHeight;  // of the shell that it fills, m
   float slices, inverseDepth;   // slices of a level; 1 / slices of all
-  vec4 shift;                   // xy: way of the sunlight across from one slice to the next, m
+  vec4 shift;                   // xy: way of the sunlight across from one slice to the next, m; z: 1 / planet's radius
 };
 
 const float kReduced = 0.14f;  // share of the extinction that makes light forget where it came from

@@ -5,6 +5,7 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <utility>
 #include <vector>
 
 #include "welkin/density/clip_levels.hpp"
@@ -31,8 +32,8 @@ class LightVolume {
   QualityPreset preset() const { return preset_; }
   const gl::Texture& sun() const { return sun_; }          // optical depth toward the sun
   const gl::Texture& diffuse() const { return diffuse_; }  // light without direction
-  const gl::Texture& density() const { return density_; }  // of the level at work
-  std::size_t bytes() const;
+  // With what only its own passes use.
+  std::vector<std::pair<const char*, const gl::Texture*>> textures() const;
 
  private:
   struct Level {

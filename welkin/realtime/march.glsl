@@ -3,9 +3,10 @@
 // supplies, before this file, `struct Sky` and
 //   Vec3 skyExtinction(Vec3 q, Real footprint, Mask full, Sky sky)
 // which answers (extinction in 1/m, profile, extinction times precipitation) of all layers at a point of cloud space, and
-//   const int kLightVolume, Real skyCoarseness(Vec3 q, Sky), Real skySunDepth(Vec3 q, Sky), Vec2 skyDiffuse(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky)
-// whether there is a light volume, its optical depth toward the sun, its light without direction, and what of that comes
-// down below the clouds.
+//   const int kLightVolume, Real skyCoarseness(Vec3 q, Sky), Real skySunDepth(Vec3 q, Sky), Vec2 skyDiffuse(Vec3 q, Sky),
+//   Vec2 skyBelow(Vec2 p, Sky)
+// whether there is a light volume, the width of its cells against the finest, its optical depth toward the sun, its light
+// without direction, and what of that comes down below the clouds.
 
 struct MarchResult {
   Vec3 radiance;      // light that the clouds send, without the air in between
@@ -205,8 +206,10 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
       if (kLightVolume != 0) {
         // What has been scattered forward goes on in nearly the same direction, the rest spreads.
         Real forward = exp(-kReduced * thick) - exp(-thick);
-        source = sunlight * (phases[0] * exp(-thick) + broad * forward + (spread.x + m.beam * exp(-kReduced * thick)) * 0.318309886f);
-        source += xyz(m.ambientSky) * spread.y + xyz(m.ambientGround) * (1.0f - spread.y);
+        Real turned = (spread.x + m.beam * exp(-kReduced * thick)) * 0.318309886f;
+        source = sunlight * ((phases[0] * exp(-thick) + broad * forward) * powder + turned);
+        source += xyz(m.ambientSky) * (m.ambientSky.w * spread.y);
+        source += xyz(m.ambientGround) * (m.ambientGround.w * (1.0f - spread.y));
       } else {
       Real above = sigma * max(q.z - m.bottom, 0.0f);
       source += xyz(m.ambientSky) * (m.ambientSky.w * 0.75f * exp(-0.12f * tauUp));

@@ -79,7 +79,8 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   // What is seen past the clouds is the sky of its table, which knows no shade.
   Vec3 missing = Vec3(0.0f);
   if (kLightVolume != 0)
-    missing = (shaded.radiance * (Vec3(1.0f) - through) - inscatter) * (m.skyBehind * select(either(ground, limit < 5e7f), Real(0.0f), shaded.share));
+    missing = (shaded.radiance * (Vec3(1.0f) - through) - inscatter) *
+              (m.skyBehind * select(either(ground, limit < 5e7f), Real(0.0f), shaded.share));
   airBefore(dir, r.depth, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
   Real fade = 1.0f - smoothstep(0.55f * m.maxDistance, 0.98f * m.maxDistance, r.depth);
   Real opacity = (1.0f - r.transmittance) * fade;

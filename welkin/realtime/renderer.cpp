@@ -127,14 +127,20 @@ struct Renderer::State {
         gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
   }
 
+  static bool replacesNoise(const CustomTextures& custom) {
+    return !custom.profileBase.texels.empty() || !custom.profileDetail.texels.empty() ||
+           !custom.profileWarp.texels.empty() || !custom.nubisBase.texels.empty() ||
+           !custom.nubisDetail.texels.empty() || !custom.curl.texels.empty();
+  }
+
   // Whether another scene has the very clouds of this one, its textures being the renderer's own.
   bool sameClouds(const Scene& next, const CustomTextures& custom) const {
     const auto sameLayer = [](const Layer& a, const Layer& b) {
       return sameFields(a.cloud, b.cloud) && sameFields(a.weather, b.weather) && sameFields(a.profile, b.profile) &&
              sameFields(a.nubis, b.nubis);
     };
-    return hasScene && !customised && custom.weatherMaps.empty() && custom.grids.empty() && placedGrids.empty() &&
-           scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
+    return hasScene && !customised && !replacesNoise(custom) && custom.weatherMaps.empty() && custom.grids.empty() &&
+           placedGrids.empty() && scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
            sameFields(scene.noise.profile, next.noise.profile) &&
            sameFields(scene.noise.baseShape, next.noise.baseShape) &&
            sameFields(scene.noise.detail, next.noise.detail) && sameFields(scene.noise.curl, next.noise.curl) &&
@@ -203,9 +209,7 @@ void Renderer::State::makeTextures(const Scene& next, const CustomTextures& cust
     make(curl, custom.curl, !sameFields(old.curl, now.curl), [&] { return generateCurl(gl, now.curl); });
   }
   billowMix = mix;
-  customised = !custom.profileBase.texels.empty() || !custom.profileDetail.texels.empty() ||
-               !custom.profileWarp.texels.empty() || !custom.nubisBase.texels.empty() ||
-               !custom.nubisDetail.texels.empty() || !custom.curl.texels.empty();
+  customised = replacesNoise(custom);
 }
 
 // The march is compiled for the layers at hand: their number and shapes are part of its text.
@@ -599,11 +603,8 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
     add("weather extra", s.weather->extra());
   }
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
-  if (s.light) {
-    add("light volume: density", s.light->density());
-    add("light volume: sun", s.light->sun());
-    add("light volume: diffuse", s.light->diffuse());
-  }
+  if (s.light)
+    for (const auto& [name, texture] : s.light->textures()) add(name, *texture);
   add("grid index", s.grids.index());
   add("grid bricks", s.grids.bricks());
   add("no map", s.white);

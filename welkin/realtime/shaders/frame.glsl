@@ -13,7 +13,8 @@ layout(std140) uniform Frame {
   vec4 uPrevious1;
   vec4 uPrevious3;
   vec4 uWind;         // xyz: way of the wind since the last frame, w: factor on the light of the history
-  vec4 uOptions;      // x: from that factor to the host's pre-exposure, y: jitter, z: what is behind (frame_params.cpp), w: rad of a target pixel
+  vec4 uOptions;      // x: from that factor to the host's pre-exposure, y: jitter, z: what is behind (frame_params.cpp),
+                      // w: rad of a target pixel
   vec4 uTarget;       // target width, height, 1 / width, 1 / height
 };
 

@@ -1,10 +1,4 @@
 // Light volume, on the way up: light = P * light of the slice below + Q.
-#include "welkin/base/law.glsl"
-#include "welkin/noise/hash.glsl"
-#include "welkin/noise/lattice.glsl"
-#include "welkin/noise/remap.glsl"
-#include "welkin/density/weather.glsl"
-#include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/shaders/light_level.glsl"
 
 uniform sampler3D uDiffuse;  // Q
@@ -20,6 +14,7 @@ void main() {
   ivec3 cell = ivec3(ivec2(gl_FragCoord.xy), int(uSlice.z));
   vec2 light = texelFetch(uDiffuse, cell + ivec3(0, 0, uFirst), 0).xy;
   if (cell.z > 0) light += texelFetch(uShare, cell, 0).x * texelFetch(uBelow, cell.xy, 0).xy;
-  light.x += uBeam * (1.0 - exp(-kClearing * texelFetch(uDensity, cell, 0).x)) * exp(-kReduced * texelFetch(uSun, cell + ivec3(0, 0, uFirst), 0).x);
+  float cloudy = 1.0 - exp(-kClearing * texelFetch(uDensity, cell, 0).x);
+  light.x += uBeam * cloudy * exp(-kReduced * texelFetch(uSun, cell + ivec3(0, 0, uFirst), 0).x);
   oLight = vec4(light, 0.0, 1.0);
 }

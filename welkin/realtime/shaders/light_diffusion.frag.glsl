@@ -1,12 +1,6 @@
 // Light volume, third pass: a step of relaxation toward the balance of diffusing light. Columns are solved exactly, with
 // their neighbours' light as it was. On the way down, slice by slice, the light of a cell is found as a share P of that of
 // the cell below plus Q; on the way up (light_column.frag.glsl) both are put together.
-#include "welkin/base/law.glsl"
-#include "welkin/noise/hash.glsl"
-#include "welkin/noise/lattice.glsl"
-#include "welkin/noise/remap.glsl"
-#include "welkin/density/weather.glsl"
-#include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/shaders/light_level.glsl"
 
 uniform sampler3D uSun;      // optical depth toward the sun, all levels

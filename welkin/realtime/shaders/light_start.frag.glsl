@@ -1,10 +1,4 @@
 // Light volume: what a slice of a level that has moved starts from: what it knew already, elsewhere the coarser level.
-#include "welkin/base/law.glsl"
-#include "welkin/noise/hash.glsl"
-#include "welkin/noise/lattice.glsl"
-#include "welkin/noise/remap.glsl"
-#include "welkin/density/weather.glsl"
-#include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/shaders/light_level.glsl"
 
 uniform sampler3D uDiffuse;

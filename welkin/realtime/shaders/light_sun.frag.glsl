@@ -1,11 +1,5 @@
 // Light volume, second pass: optical depth toward the sun of one slice, from the slice above it: each point adds what lies
 // between it and the slice above.
-#include "welkin/base/law.glsl"
-#include "welkin/noise/hash.glsl"
-#include "welkin/noise/lattice.glsl"
-#include "welkin/noise/remap.glsl"
-#include "welkin/density/weather.glsl"
-#include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/shaders/light_level.glsl"
 
 uniform sampler2D uAbove;  // the slice above
@@ -27,7 +21,7 @@ void main() {
   vec2 p = uLevel.xy + (vUv - 0.5) * uLevel.z;
   float rise = uWay.x - uSlice.x;
   // Far away the ground has turned away from the anchor's horizon.
-  float slant = max(uSunward.z + dot(uSunward.xy, p) * kInversePlanetRadius, uSunward.w);
+  float slant = max(uSunward.z + dot(uSunward.xy, p) * uVolume.shift.z, uSunward.w);
   vec2 shift = uSunward.xy * (rise / slant);
   float tau = 0.0;
   int steps = int(uWay.y);
