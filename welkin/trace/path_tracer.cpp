@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <utility>
 
 #include "welkin/atmosphere/params.hpp"
 #include "welkin/atmosphere/moon.hpp"
@@ -136,6 +137,7 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
   if (settings.scatterings > 0) k.mostScatterings = static_cast<float>(settings.scatterings);
 
   totals_.resize(static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height));
+  tilesAcross_ = (settings.width + kTile - 1) / kTile;
   for (int y = 0; y < settings.height; y += kTile)
     for (int x = 0; x < settings.width; x += kTile)
       tiles_.push_back({x, y, std::min(kTile, settings.width - x), std::min(kTile, settings.height - y)});
@@ -152,51 +154,77 @@ double PathTracer::meanOf(const Tile& tile) const {
   return sum / (static_cast<double>(tile.width) * tile.height * std::max(tile.samples, 1));
 }
 
-// Only from first samples, so that a picture taken up again ends as one that was never interrupted.
-void PathTracer::findGrey() {
-  if (grey_ > 0.0) return;
-  std::vector<double> means;
-  for (const Tile& tile : tiles_) {
-    if (tile.samples == 0) return;
-    means.push_back(meanOf(tile));
-  }
-  const auto middle = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
-  std::nth_element(means.begin(), middle, means.end());
-  // Half of the picture may be black.
-  grey_ = *middle > 0.0 ? *middle : std::max(*std::max_element(middle, means.end()), 1e-30);
-}
-
-double PathTracer::errorOf(const Tile& tile) const {
-  double variance = 0.0;
+double PathTracer::sampleVarianceOf(const Tile& tile) const {
+  double sum = 0.0;
   const double n = tile.samples;
   for (int y = tile.y; y < tile.y + tile.height; ++y)
     for (int x = tile.x; x < tile.x + tile.width; ++x) {
       const Totals& t = totals_[static_cast<std::size_t>(y) * settings_.width + x];
       const double mean = t.luminance() / n;
-      variance += std::max(t.square / n - mean * mean, 0.0) / (n - 1.0);
+      sum += std::max(t.square / n - mean * mean, 0.0) * n / (n - 1.0);
     }
+  return sum / (static_cast<double>(tile.width) * tile.height);
+}
+
+double PathTracer::errorOf(const Tile& tile, double sampleVariance) const {
   const double mean = meanOf(tile);
   if (mean <= 0.0) return 0.0;
   // d sqrt(x) = dx / (2 sqrt(x)) for luminance x as a share of white.
-  return 0.5 * std::sqrt(variance / (static_cast<double>(tile.width) * tile.height)) *
-         std::sqrt(kMiddleGrey / (grey_ * mean));
+  return 0.5 * std::sqrt(sampleVariance / tile.samples * kMiddleGrey / (grey_ * mean));
 }
 
-int PathTracer::nextSamples(const Tile& tile) const {
-  const int left = settings_.samples - tile.samples;
-  if (left <= 0) return 0;
-  if (settings_.noise <= 0.0 || tile.samples == 0) return std::min(left, kFirstSamples);
-  const double share = errorOf(tile) / settings_.noise;
-  if (share <= 1.0) return 0;
-  // The error falls with the root of the samples. Never more than there are already: the estimate is noisy itself.
-  const double wanted = tile.samples * (share * share - 1.0);
-  return std::min(left, static_cast<int>(std::clamp(std::ceil(wanted), 4.0, static_cast<double>(tile.samples))));
+// Plans from whole rounds only, so that a picture taken up again ends as one that was never interrupted.
+bool PathTracer::planRound() {
+  const bool first = tiles_.front().samples == 0;
+  const bool adaptive = settings_.noise > 0.0 && !first;
+  std::vector<double> variances;
+  if (adaptive) {
+    std::vector<double> means;
+    for (const Tile& tile : tiles_) {
+      means.push_back(meanOf(tile));
+      variances.push_back(sampleVarianceOf(tile));
+    }
+    if (grey_ == 0.0) {
+      const auto middle = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
+      std::nth_element(means.begin(), middle, means.end());
+      // Half of the picture may be black.
+      grey_ = *middle > 0.0 ? *middle : std::max(*std::max_element(middle, means.end()), 1e-30);
+    }
+  }
+  bool any = false;
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    Tile& tile = tiles_[i];
+    const int left = settings_.samples - tile.samples;
+    if (left <= 0) continue;
+    int samples = kFirstSamples;
+    if (adaptive) {
+      double variance = variances[i];
+      if (tile.samples == kFirstSamples) {
+        // Where the rare bright paths have not come yet, a tile looks finished; its neighbours know better.
+        const int across = tilesAcross_, down = static_cast<int>(tiles_.size()) / across;
+        const int column = static_cast<int>(i) % across, row = static_cast<int>(i) / across;
+        double sum = 0.0, count = 0.0;
+        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, down - 1); ++y)
+          for (int x = std::max(column - 1, 0); x <= std::min(column + 1, across - 1); ++x, ++count)
+            sum += variances[static_cast<std::size_t>(y) * across + x];
+        variance = std::max(variance, sum / count);
+      }
+      const double share = errorOf(tile, variance) / settings_.noise;
+      // The error falls with the root of the samples. Never more than there are already: the estimate is noisy itself.
+      samples = share <= 1.0 ? 0
+                             : static_cast<int>(std::clamp(std::ceil(tile.samples * (share * share - 1.0)), 4.0,
+                                                           static_cast<double>(tile.samples)));
+    }
+    tile.planned = std::min(left, samples);
+    any = any || tile.planned > 0;
+  }
+  return any;
 }
 
-void PathTracer::traceTile(Tile& tile, int samples) {
+void PathTracer::traceTile(Tile& tile) {
   std::vector<PixelSums> sums(static_cast<std::size_t>(tile.width) * tile.height, PixelSums{});
-  const TileJob job{tile.x,           tile.y,       tile.width, tile.height, settings_.width,
-                    settings_.height, tile.samples, samples,    seed_};
+  const TileJob job{tile.x,           tile.y,       tile.width,   tile.height, settings_.width,
+                    settings_.height, tile.samples, tile.planned, seed_};
   const KernelStatistics found = trace::traceTile(baked_->kernel, job, sums);
   for (int y = 0; y < tile.height; ++y)
     for (int x = 0; x < tile.width; ++x) {
@@ -210,7 +238,7 @@ void PathTracer::traceTile(Tile& tile, int samples) {
       to.clear += from.clear;
       to.depth += from.depth;
     }
-  tile.samples += samples;
+  tile.samples += std::exchange(tile.planned, 0);
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   statistics_.paths += found.paths;
@@ -231,35 +259,25 @@ bool PathTracer::run(const Progress& progress, const std::function<void()>& chec
     double done = 0.0, left = 0.0;
     for (const Tile& tile : tiles_) {
       done += tile.samples;
-      if (tile.done) continue;
       const double most = settings_.samples - tile.samples;
-      const double error = settings_.noise > 0.0 && grey_ > 0.0 ? errorOf(tile) / settings_.noise : 0.0;
-      left += error > 0.0 ? std::clamp(tile.samples * (error * error - 1.0), 0.0, most) : most;
+      if (settings_.noise > 0.0 && grey_ > 0.0) {
+        const double error = errorOf(tile, sampleVarianceOf(tile)) / settings_.noise;
+        left += std::clamp(tile.samples * (error * error - 1.0), static_cast<double>(tile.planned), most);
+      } else {
+        left += most;
+      }
     }
     const double byWork = done + left > 0.0 ? done / (done + left) : 1.0;
     return settings_.seconds > 0.0 ? std::max(byWork, std::min(since(start) / settings_.seconds, 1.0)) : byWork;
   };
-  for (bool any = true; any;) {
-    any = false;
-    findGrey();
+  do {
     for (std::size_t first = 0; first < tiles_.size(); first += kGroup) {
-      std::vector<std::pair<Tile*, int>> work;
-      for (std::size_t i = first; i < std::min(first + kGroup, tiles_.size()); ++i) {
-        Tile& tile = tiles_[i];
-        if (tile.done) continue;
-        if (settings_.noise > 0.0 && grey_ == 0.0 && tile.samples > 0) {
-          any = true;  // when all have begun
-          continue;
-        }
-        if (const int samples = nextSamples(tile); samples > 0)
-          work.emplace_back(&tile, samples);
-        else
-          tile.done = true;
-      }
+      std::vector<Tile*> work;
+      for (std::size_t i = first; i < std::min(first + kGroup, tiles_.size()); ++i)
+        if (tiles_[i].planned > 0) work.push_back(&tiles_[i]);
       if (work.empty()) continue;
-      any = true;
       parallelFor(work.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) traceTile(*work[i].first, work[i].second);
+        for (std::size_t i = begin; i < end; ++i) traceTile(*work[i]);
       });
       if (checkpoint && since(saved) > settings_.checkpointSeconds) {
         checkpoint();
@@ -268,7 +286,7 @@ bool PathTracer::run(const Progress& progress, const std::function<void()>& chec
       if (progress && !progress(share())) return false;
       if (settings_.seconds > 0.0 && since(start) > settings_.seconds) return true;
     }
-  }
+  } while (planRound());
   if (progress) progress(1.0);
   return true;
 }
@@ -301,7 +319,7 @@ TraceLayers PathTracer::layers() const {
 }
 
 namespace {
-constexpr char kMagic[8] = {'W', 'E', 'L', 'K', 'I', 'N', 'T', '2'};
+constexpr char kMagic[8] = {'W', 'E', 'L', 'K', 'I', 'N', 'T', '3'};
 }
 
 std::vector<std::byte> PathTracer::state() const {
@@ -317,9 +335,8 @@ std::vector<std::byte> PathTracer::state() const {
   put(&settings_.height, sizeof(int));
   put(&grey_, sizeof grey_);
   for (const Tile& tile : tiles_) {
-    const int done = tile.done ? 1 : 0;
     put(&tile.samples, sizeof(int));
-    put(&done, sizeof(int));
+    put(&tile.planned, sizeof(int));
   }
   put(totals_.data(), totals_.size() * sizeof(Totals));
   return bytes;
@@ -343,11 +360,10 @@ void PathTracer::restore(std::span<const std::byte> bytes) {
   if (!(grey_ >= 0.0) || !std::isfinite(grey_))
     throw Error(ErrorKind::badInput, "", "the checkpoint is damaged; delete it to start anew");
   for (Tile& tile : tiles_) {
-    int done = 0;
     take(&tile.samples, sizeof(int));
-    take(&done, sizeof(int));
-    tile.done = done != 0;
-    if (tile.samples < 0) throw Error(ErrorKind::badInput, "", "the checkpoint is damaged; delete it to start anew");
+    take(&tile.planned, sizeof(int));
+    if (tile.samples < 0 || tile.planned < 0 || tile.planned > settings_.samples)
+      throw Error(ErrorKind::badInput, "", "the checkpoint is damaged; delete it to start anew");
   }
   take(totals_.data(), totals_.size() * sizeof(Totals));
 }

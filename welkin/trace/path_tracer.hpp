@@ -86,21 +86,22 @@ class PathTracer {
   struct Tile {
     int x, y, width, height;
     int samples = 0;
-    bool done = false;
+    int planned = 0;  // samples of this round that are not traced yet
   };
-  void traceTile(Tile& tile, int samples);
-  double meanOf(const Tile& tile) const;  // luminance
-  void findGrey();
-  int nextSamples(const Tile& tile) const;  // 0: enough
-  double errorOf(const Tile& tile) const;
+  void traceTile(Tile& tile);
+  bool planRound();                                 // false: enough everywhere
+  double meanOf(const Tile& tile) const;            // luminance
+  double sampleVarianceOf(const Tile& tile) const;  // of one sample's luminance, mean over the pixels
+  double errorOf(const Tile& tile, double sampleVariance) const;
 
   struct Baked;
   std::unique_ptr<Baked> baked_;
   TraceSettings settings_;
   std::uint32_t seed_;
   std::vector<Totals> totals_;  // of every pixel
-  std::vector<Tile> tiles_;
-  double grey_ = 0.0;  // luminance of the median tile after its first samples; 0 until all have them
+  std::vector<Tile> tiles_;     // row by row
+  int tilesAcross_ = 0;
+  double grey_ = 0.0;  // luminance of the median tile after the first round; 0 until then
   KernelStatistics statistics_;
 };
 
