@@ -47,13 +47,12 @@ FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky
 }
 // Without a light volume: parity is that of the march.
 const int kLightVolume = 0;
-FN Real skyCoarseness(IN(Vec3), IN(Sky)) { return 1.0f; }
 FN Real skySunDepth(IN(Vec3), IN(Sky)) { return 0.0f; }
-FN Vec2 skyDiffuse(IN(Vec3), IN(Sky)) { return Vec2(0.0f); }
 FN Vec2 skyBelow(IN(Vec2), IN(Sky)) { return Vec2(0.0f); }
 FN int skySheetCount(IN(Sky) sky) { return static_cast<int>(sky.sheets.size()); }
 FN SheetParams skySheet(int i, IN(Sky) sky) { return sky.sheets[static_cast<std::size_t>(i)]; }
 
+#include "welkin/realtime/span.glsl"
 #include "welkin/realtime/march.glsl"
 #include "welkin/realtime/ray.glsl"
 #include "welkin/base/law_end.inc"

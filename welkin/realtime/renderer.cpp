@@ -232,11 +232,17 @@ void Renderer::State::makeMarch() {
         "inGrid = gridExtinction(q, uGrid[{}], uGridIndex, uGridBricks); "
         "sum = vec3(sum.x + inGrid.x, max(sum.y, inGrid.y), sum.z); ",
         i);
+  std::string clearance;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    clearance +=
+        fmt::format("clear = min(clear, layerClearance(q, way, sky.dither, uLayer[{0}], uClip[{0}], uBounds)); ", i);
+  for (std::size_t i = 0; i < grids.count(); ++i)
+    clearance += fmt::format("clear = min(clear, gridClearance(q, way, uGrid[{}])); ", i);
   const std::string clouds =
       fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n",
                   kMaxLayers, scene.sheets.size(), kMaxGrids, layers);
-  const std::string defines =
-      clouds + (counting ? "#define COUNT_SAMPLES\n" : "") + (light ? "#define LIGHT_VOLUME\n" : "");
+  const std::string defines = clouds + (counting ? "#define COUNT_SAMPLES\n" : "") +
+                              (light ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
   if (text == marchDefines) return;
   if (light)
@@ -425,6 +431,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   if (light) {
     bind(march, "uSun", light->sun(), unit++);
     bind(march, "uDiffuse", light->diffuse(), unit++);
+    if (weather) bind(march, "uBounds", weather->bounds(), unit++);
   }
   bindClouds(march, unit);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -601,6 +608,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   if (s.weather) {
     add("weather", s.weather->main());
     add("weather extra", s.weather->extra());
+    add("weather bounds", s.weather->bounds());
   }
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
   if (s.light)

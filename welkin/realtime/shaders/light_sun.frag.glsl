@@ -14,7 +14,8 @@ layout(location = 0) out vec4 oTau;
 float above(vec2 p) {
   vec2 uv = (p - uLevel.xy) / uLevel.z + 0.5;
   if (uCoarsest == 1 || all(lessThan(abs(uv - 0.5), vec2(0.5)))) return textureLod(uAbove, uv, 0.0).x;
-  return textureLod(uSun, lightVolumePlace(vec3(p, uWay.x), 0.0, uVolume), 0.0).x;
+  vec3 q = vec3(p, uWay.x);
+  return textureLod(uSun, lightVolumePlace(lightVolumeLevel(q, 0.0, uVolume), q, uVolume), 0.0).x;
 }
 
 void main() {

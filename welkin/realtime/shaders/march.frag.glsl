@@ -22,8 +22,6 @@ const int kLightVolume = 1;
 const int kLightVolume = 0;
 #endif
 float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolume, uSun); }
-float skyCoarseness(vec3 q, Sky sky) { return lightVolumeCoarseness(q, sky.dither, uVolume); }
-vec2 skyDiffuse(vec3 q, Sky sky) { return textureLod(uDiffuse, lightVolumePlace(q, sky.dither, uVolume), 0.0).xy; }
 int skySheetCount(Sky sky) { return SHEET_COUNT; }
 SheetParams skySheet(int i, Sky sky) { return uSheet[i]; }
 
@@ -36,7 +34,19 @@ vec3 skyLightning(vec3 q, Sky sky) { return lightningLight(q, uLightning); }
 #endif
 
 #include "welkin/realtime/march_params.glsl"
+#include "welkin/realtime/span.glsl"
+#ifdef LIGHT_VOLUME
+#include "welkin/realtime/shaders/clearance.glsl"
+uniform highp sampler2DArray uBounds;
+float skyClearance(vec3 q, vec3 way, Sky sky) {
+  float clear = 1e9;
+  SKY_CLEARANCE
+  return clear;
+}
+#include "welkin/realtime/shaders/march_volume.glsl"
+#else
 #include "welkin/realtime/march.glsl"
+#endif
 #include "welkin/realtime/ray.glsl"
 
 layout(std140) uniform March { MarchParams uMarch; };
