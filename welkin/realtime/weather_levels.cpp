@@ -9,7 +9,7 @@ namespace welkin::realtime {
 
 namespace {
 constexpr double kLeash = 0.08;  // share of a level's edge that the camera may move before it is drawn again
-constexpr int kCell = 8;         // texels of a cell of the bounds
+constexpr int kCell = 4;         // texels of a cell of the bounds
 }  // namespace
 
 WeatherExtent weatherExtent(QualityPreset preset) {

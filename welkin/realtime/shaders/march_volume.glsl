@@ -7,8 +7,9 @@
 
 const int kMostSkips = 400;
 const float kFarthestSkip = 4000.0;  // m, over which the earth bends by a metre
-const int kFineSteps = 6;            // after the first hit
-const float kFineStep = 0.33;        // share of the usual step
+const int kFineSteps = 4;            // after the first hit
+const float kFineStep = 0.5;         // share of the usual step
+const float kOutside = 0.5;          // share of the depth outside the outlines that is taken for clear, within 4 steps
 
 MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter, MarchParams m, Sky sky) {
   vec3 sun = m.sun.xyz, up = m.planet.up.xyz;
@@ -61,7 +62,7 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
         fineLeft = float(kFineSteps);
         t -= (1.0 - kFineStep * jitter.x) * lastStep;
       } else {
-        lastStep = spacing * (fine ? kFineStep : found.y <= 0.0 ? 1.8 : 1.0);
+        lastStep = fine ? kFineStep * spacing : found.y <= 0.0 ? clamp(-kOutside * found.y, 1.8 * spacing, 4.0 * spacing) : spacing;
         fineLeft = max(fineLeft - 1.0, 0.0);
         t += lastStep;
       }
