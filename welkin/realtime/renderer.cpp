@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
 
 #include "welkin/atmosphere/moon.hpp"
@@ -95,8 +96,8 @@ struct Renderer::State {
   bool hasScene = false;
   int sceneNumber = 0, cloudsNumber = 0;
   Heavens heavens;
-  gl::Program compositeMoon, compositeNight;
-  glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};  // of the light: by night it is the moon's
+  std::map<std::string, gl::Program> composites;  // by the defines of the variant
+  glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};       // of the light: by night it is the moon's
   gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
   std::vector<gl::Texture> maps;
   std::unique_ptr<WeatherLevels> weather;
@@ -104,7 +105,7 @@ struct Renderer::State {
   GridAtlas grids;
   std::vector<PlacedGrid> placedGrids;  // that it was made of
   float gridExtinction = 0.0f;          // their greatest, 1/m
-  gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, composite, weatherProgram;
+  gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
@@ -122,7 +123,6 @@ struct Renderer::State {
     resolve = gl::Program(gl, "resolve", "", resolveText, shaderSource);
     resolveAveraged = gl::Program(gl, "resolve, averaged", "#define AVERAGE\n", resolveText, shaderSource);
     resolveFirstRound = gl::Program(gl, "resolve, first round", "#define FIRST_ROUND\n", resolveText, shaderSource);
-    composite = gl::Program(gl, "composite", "", fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
     weatherProgram =
         gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
   }
@@ -176,8 +176,8 @@ struct Renderer::State {
   void marchPass(View::State& view, const Frame& frame);
   void resolvePass(View::State& view, const gl::Program& program);
   void lightningOf(const glm::dvec3& position, double time);
-  void compositePass(const View::State& view, const Frame& frame);
-  const gl::Program& compositeProgram();
+  void compositePass(const View::State& view, const Frame& frame, const FrameParams& params);
+  const gl::Program& compositeProgram(const Frame& frame, const FrameParams& params);
   float exposure() const;
 };
 
@@ -427,6 +427,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   bind(march, "uTransmittance", sky.transmittance(), unit++);
   bind(march, "uAerialInscatter", sky.aerialInscatter(), unit++);
   bind(march, "uAerialTransmittance", sky.aerialTransmittance(), unit++);
+  bind(march, "uSkyView", sky.skyView(), unit++);
   bindHostDepth(march, frame, unit++);
   if (light) {
     bind(march, "uSun", light->sun(), unit++);
@@ -471,15 +472,20 @@ void Renderer::State::lightningOf(const glm::dvec3& position, double time) {
   lightningBuffer.upload(&l, sizeof l);
 }
 
-// Moon and stars are variants, since the software driver runs all of a shader.
-const gl::Program& Renderer::State::compositeProgram() {
-  if (!heavens.starsShow && !heavens.moonShows) return composite;
-  gl::Program& program = heavens.starsShow ? compositeNight : compositeMoon;
-  if (program.id() == 0)
-    program = gl::Program(gl, heavens.starsShow ? "composite, night" : "composite, moon",
-                          heavens.starsShow ? "#define NIGHT\n#define STARS\n" : "#define NIGHT\n",
-                          fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
-  return program;
+const gl::Program& Renderer::State::compositeProgram(const Frame& frame, const FrameParams& params) {
+  const bool drawn = frame.background != Background::host && frame.output != Output::transmittance;
+  std::string defines;
+  if (drawn && frame.depthTexture) defines += "#define SKY\n";
+  if (drawn && frame.output == Output::light && mayShow(params, glm::vec3(sky.params().air.sunDirection), 0.05f))
+    defines += "#define DISC\n";
+  if (drawn && heavens.moonShows) defines += "#define MOON\n";
+  if (drawn && heavens.starsShow) defines += "#define STARS\n";
+  const auto found = composites.find(defines);
+  if (found != composites.end()) return found->second;
+  return composites
+      .emplace(defines, gl::Program(gl, "composite", defines, fileText("welkin/realtime/shaders/composite.frag.glsl"),
+                                    shaderSource))
+      .first->second;
 }
 
 // By night the history holds light times this: half floats lose digits below 6e-5, which is a moonlit cloud.
@@ -489,20 +495,20 @@ float Renderer::State::exposure() const {
   return night ? kNightExposure : 1.0f;
 }
 
-void Renderer::State::compositePass(const View::State& view, const Frame& frame) {
+void Renderer::State::compositePass(const View::State& view, const Frame& frame, const FrameParams& params) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
   gl.Viewport(0, 0, frame.width, frame.height);
   gl.Enable(GL_BLEND);
   gl.BlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
   gl.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
-  const gl::Program& program = compositeProgram();
+  const gl::Program& program = compositeProgram(frame, params);
   gl.UseProgram(program.id());
   program.bindBlock("Frame", kFrameBlock);
   program.bindBlock("Air", kLayersBlock);
   frameBuffer.bind(kFrameBlock);
   weatherBuffer.upload(&sky.params().air, sizeof(law::AtmosphereParams));
   weatherBuffer.bind(kLayersBlock);
-  if (&program != &composite) {
+  if (heavens.moonShows || heavens.starsShow) {
     program.bindBlock("Night", kNightBlock);
     nightBuffer.upload(&heavens.night, sizeof heavens.night);
     nightBuffer.bind(kNightBlock);
@@ -537,6 +543,7 @@ void Renderer::render(View& view, const Frame& frame) {
   FrameParams params = frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
   params.wind.w *= v.exposure;
   params.options.x = 1.0f / v.exposure;
+  if (v.last && v.last->options.z != params.options.z) view.reset();
   const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != position || v.lastTime != frame.time ||
                      v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
@@ -563,7 +570,7 @@ void Renderer::render(View& view, const Frame& frame) {
   const bool average = s.scene.quality.averageHistory && history != History::none;
   s.resolvePass(v, history == History::begun ? s.resolveFirstRound : average ? s.resolveAveraged : s.resolve);
   s.timers.mark("resolve");
-  s.compositePass(v, frame);
+  s.compositePass(v, frame, params);
   s.timers.mark("composite");
   s.gl.check("drawing a frame");
 

@@ -12,6 +12,7 @@
 uniform sampler2D uTransmittance;
 uniform sampler3D uAerialInscatter;
 uniform sampler3D uAerialTransmittance;
+uniform sampler2D uSkyView;
 uniform sampler3D uSun;
 uniform sampler3D uDiffuse;
 uniform sampler2D uHostDepth;
@@ -86,6 +87,8 @@ void main() {
   float depth, samples;
   renderRay(normalize(ray), limit, jitter, uMarch, uAir, uTransmittance, uAerialInscatter, uAerialTransmittance, sky,
             colour, depth, samples);
+  // The sky behind is as smooth as the rest of the history.
+  if (uOptions.z == 1.0) colour.rgb += colour.a * lookupSky(uSkyView, uAir, normalize(ray));
   oColour = vec4(min(colour.rgb * uWind.w, vec3(60000.0)), colour.a);
   oDepth = vec4(min(depth * 0.25, 60000.0));
 #ifdef COUNT_SAMPLES
