@@ -12,6 +12,7 @@
 #include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/gl/state.hpp"
+#include "welkin/noise/blue_noise.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/grid_atlas.hpp"
 #include "welkin/realtime/light_volume.hpp"
@@ -27,6 +28,7 @@ namespace welkin::realtime {
 
 namespace {
 
+constexpr int kBlueNoiseSize = 64;
 constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
 // The uniform block "Layers" of the passes that march through clouds.
@@ -98,7 +100,7 @@ struct Renderer::State {
   Heavens heavens;
   std::map<std::string, gl::Program> composites;  // by the defines of the variant
   glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};       // of the light: by night it is the moon's
-  gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
+  gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white, blueNoise;
   std::vector<gl::Texture> maps;
   std::unique_ptr<WeatherLevels> weather;
   std::unique_ptr<LightVolume> light;
@@ -119,6 +121,8 @@ struct Renderer::State {
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
     white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
                         texel.data());
+    blueNoise = gl::Texture(gl, gl::Texture::Kind::plane, gl::kR16F, kBlueNoiseSize, kBlueNoiseSize, 0,
+                            gl::Filter::nearest, gl::Addressing::repeat, welkin::blueNoise(kBlueNoiseSize, 1).data());
     const auto resolveText = fileText("welkin/realtime/shaders/resolve.frag.glsl");
     resolve = gl::Program(gl, "resolve", "", resolveText, shaderSource);
     resolveAveraged = gl::Program(gl, "resolve, averaged", "#define AVERAGE\n", resolveText, shaderSource);
@@ -428,6 +432,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   bind(march, "uAerialInscatter", sky.aerialInscatter(), unit++);
   bind(march, "uAerialTransmittance", sky.aerialTransmittance(), unit++);
   bind(march, "uSkyView", sky.skyView(), unit++);
+  bind(march, "uBlueNoise", blueNoise, unit++);
   bindHostDepth(march, frame, unit++);
   if (light) {
     bind(march, "uSun", light->sun(), unit++);
@@ -623,6 +628,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   add("grid index", s.grids.index());
   add("grid bricks", s.grids.bricks());
   add("no map", s.white);
+  add("blue noise", s.blueNoise);
   add("sky transmittance", s.sky.transmittance());
   add("sky multiple scattering", s.sky.multiScattering());
   add("sky view", s.sky.skyView());

@@ -16,6 +16,7 @@ uniform sampler2D uSkyView;
 uniform sampler3D uSun;
 uniform sampler3D uDiffuse;
 uniform sampler2D uHostDepth;
+uniform sampler2D uBlueNoise;
 
 #ifdef LIGHT_VOLUME
 const int kLightVolume = 1;
@@ -58,16 +59,11 @@ layout(location = 1) out vec4 oDepth;
 layout(location = 2) out vec4 oSamples;
 #endif
 
-// Interleaved gradient noise (Jimenez 2014), moved on by the golden ratio every round: a pixel is marched once in each.
-float gradientNoise(vec2 pixel, float round_) {
-  return fract(fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) + 0.61803399 * round_);
-}
-
-// White noise for the lighting: what is left after averaging looks like grain, where a regular pattern would look like
-// hatching.
-float whiteNoise(vec2 pixel, float round_) {
-  uint h = hashCell2(int(pixel.x), int(pixel.y), 9u);
-  return fract(unitFromHash(h) + 0.61803399 * round_);
+// Blue noise in [0, 1), moved on by the golden ratio every round: a pixel is marched once in each. `place` tells apart
+// what must not go together.
+float blueNoise(vec2 pixel, ivec2 place, float round_) {
+  int size = textureSize(uBlueNoise, 0).x;
+  return fract(texelFetch(uBlueNoise, (ivec2(pixel) + place) % size, 0).x + 0.61803399 * round_);
 }
 
 void main() {
@@ -80,9 +76,10 @@ void main() {
   vec3 jitter = vec3(0.5);
   float round_ = floor(uTiming.x / (uTiming.w * uTiming.w));
   if (uOptions.y > 0.5)
-    jitter = vec3(gradientNoise(pixel, round_), whiteNoise(pixel, round_), fract(0.5 + 0.61803399 * round_));
+    jitter = vec3(blueNoise(pixel, ivec2(0), round_), blueNoise(pixel, ivec2(23, 41), round_),
+                  fract(0.5 + 0.61803399 * round_));
   Sky sky;
-  sky.dither = whiteNoise(pixel + 4096.0, round_ * uOptions.y);
+  sky.dither = blueNoise(pixel, ivec2(47, 13), round_ * uOptions.y);
   vec4 colour;
   float depth, samples;
   renderRay(normalize(ray), limit, jitter, uMarch, uAir, uTransmittance, uAerialInscatter, uAerialTransmittance, sky,
