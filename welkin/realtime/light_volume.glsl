@@ -12,7 +12,8 @@ struct LightVolumeParams {
   ClipParams levels;
   float bottom, inverseHeight;  // of the shell that it fills, m
   float slices, inverseDepth;   // slices of a level; 1 / slices of all
-  vec4 shift;                   // xy: way of the sunlight across from one slice to the next, m; z: 1 / planet's radius
+  vec4 shift;                   // xy: way of the sunlight across from one slice to the next, m; z: 1 / planet's radius; w: cells
+                                // across a level
 };
 
 const float kReduced = 0.14f;  // share of the extinction that makes light forget where it came from
@@ -37,15 +38,16 @@ FN Vec3 lightVolumePlace(IN(Vec4) level, IN(Vec3) q, IN(LightVolumeParams) v) {
   return Vec3(q.x * level.x + level.y, q.y * level.x + level.z, (level.w * v.slices + slice) * v.inverseDepth);
 }
 
-// Optical depth toward the sun. Between slices the light runs aslant, and so does the interpolation: straight up it would
-// mix the shadows of two slices side by side.
+// Optical depth toward the sun. Between slices the light runs aslant, and so does the interpolation, by a cell at most:
+// straight up it would mix the shadows of two slices side by side.
 FN Real sunDepthIn(IN(Vec4) level, IN(Vec3) q, IN(LightVolumeParams) v, IN(Sampler3) sun) {
   Real at = (q.z - v.bottom) * v.inverseHeight * v.slices - 0.5f;
   Real slice = clamp(at, 0.0f, v.slices - 1.0f);
   Real below = floor(slice);
   Real share = slice - below;
   Vec2 place = Vec2(q.x * level.x + level.y, q.y * level.x + level.z);
-  Vec2 scale = Vec2(v.shift.x, v.shift.y) * level.x;
+  Vec2 shift = Vec2(v.shift.x, v.shift.y) * level.x;
+  Vec2 scale = shift * min(1.0f / max(length(shift) * v.shift.w, 1e-6f), 1.0f);
   Real first = level.w * v.slices + below + 0.5f;
   Vec2 low = place - scale * share;
   Vec2 high = place + scale * (1.0f - share);
