@@ -38,7 +38,7 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     : gl_(gl), preset_(preset), sunPass_(pass(gl, "light_sun")), startPass_(pass(gl, "light_start")),
       diffusionPass_(pass(gl, "light_diffusion")), columnPass_(pass(gl, "light_column")), block_(gl) {
   const bool small = preset == QualityPreset::low || preset == QualityPreset::medium;
-  extent_ = {small ? 72 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
+  extent_ = {small ? 64 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
   slices_ = small ? 20 : 32;
   levels_.resize(static_cast<std::size_t>(extent_.levels));
   const auto volume = [&](const gl::Format& format, int levels) {

@@ -74,7 +74,8 @@ FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) diffuse) {
 }
 
 // How freely light passes from a cell of extinction `own` (1/m) to its neighbour of `other`, `h` m away (x), and through
-// what is clear of the neighbour to the surroundings (y); per m.
+// what is clear of the neighbour to the surroundings (y); per m. Light that leaves a dense cell has not come from its
+// middle, but from within a transport path of its surface.
 FN Vec2 exchange(IN(Real) own, IN(Real) other, IN(float) h) {
   float half_ = 0.375f * kReduced * h;
   Real clear = exp(-kClearing * other);

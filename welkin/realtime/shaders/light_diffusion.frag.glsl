@@ -39,11 +39,12 @@ void main() {
   }
   vec2 down = exchange(own, cell.z == 0 ? 0.0 : densityAt(cell - ivec3(0, 0, 1)), uSlice.y);
   weights += down.x + down.y;
-  // Sunlight that loses its way in this cell: the mean over its depth of an exponential that is known in its middle.
+  // Sunlight that loses its way in this cell: the mean over its depth of an exponential that is known in its middle, with
+  // half of the cell before it at least.
   float reduced = kReduced * texelFetch(uDensity, cell, 0).y;
-  float half_ = clamp(0.5 * reduced * min(width, uSlice.y), 0.01, 4.0);
-  float tau = texelFetch(uSun, cell + ivec3(0, 0, uFirst), 0).x;
-  sum.x += reduced * exp(-kReduced * tau) * sinh(half_) / half_;
+  float half_ = max(0.5 * reduced * min(width, uSlice.y), 0.01);
+  float tau = kReduced * texelFetch(uSun, cell + ivec3(0, 0, uFirst), 0).x;
+  sum.x += reduced * exp(half_ - max(tau, half_)) * (1.0 - exp(-2.0 * half_)) / (2.0 * half_);
   oLight = vec4(sum / weights, 0.0, 1.0);
   oShare = vec4(down.x / weights);
 }
