@@ -10,8 +10,9 @@ namespace host {
 
 namespace {
 
-constexpr double kPlanetRadius = 6360000.0, kPi = 3.14159265358979;
+constexpr double kPi = 3.14159265358979;
 constexpr float kNear = 0.5f;  // m
+constexpr int kSides = 48;     // of the glass disc
 
 double unitOf(int x, int y) {
   auto h = static_cast<std::uint32_t>(x) * 0x8DA6B343u ^ static_cast<std::uint32_t>(y) * 0xD8163841u;
@@ -106,11 +107,10 @@ void makeLand(std::vector<float>& vertices, std::vector<std::uint32_t>& indices)
     }
 }
 
-// A disc of six vertices that a hexagon would be: fine enough, since the grid is drawn by the shader.
+// A fan of triangles; its grid is drawn by the shader.
 std::vector<float> glassDisc() {
   constexpr double kHeight = 1700.0, kRadius = 6000.0;
   std::vector<float> vertices;
-  constexpr int kSides = 48;
   for (int i = 0; i < kSides; ++i)
     for (const int corner : {-1, i, i + 1}) {
       const double turn = 2.0 * kPi * corner / kSides, r = corner < 0 ? 0.0 : kRadius;
@@ -237,7 +237,7 @@ void Engine::drawGlass(const Eye& eye, const Target& target) {
   gl_.Enable(GL_BLEND);
   gl_.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   gl_.BindVertexArray(glassVertices_);
-  gl_.DrawArrays(GL_TRIANGLES, 0, 48 * 3);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3 * kSides);
   gl_.Disable(GL_BLEND);
 }
 
@@ -256,7 +256,7 @@ std::vector<unsigned char> Engine::shown(const Target& target) const {
           const double l = std::max(at(x + (k & 1), y + (k >> 1), c), 0.0f);
           sum += 0.25 * std::min(l * (2.51 * l + 0.03) / (l * (2.43 * l + 0.59) + 0.14), 1.0);
         }
-        bytes.push_back(static_cast<unsigned char>(255.0 * std::pow(sum, 1.0 / 2.2) + 0.5));
+        bytes.push_back(static_cast<unsigned char>(std::lround(255.0 * std::pow(sum, 1.0 / 2.2))));
       }
   return bytes;
 }

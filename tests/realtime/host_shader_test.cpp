@@ -9,6 +9,7 @@
 #include "welkin/base/error.hpp"
 #include "welkin/density/field.hpp"
 #include "welkin/density/params.hpp"
+#include "welkin/realtime/law.hpp"
 #include "welkin/scene/shade.hpp"
 
 namespace welkin::realtime::test {
@@ -245,7 +246,7 @@ TEST(SunShare, OfTheCpuIsThatOfTheShader) {
   EXPECT_LT(mean / count, 0.95);
   EXPECT_LT(error / count, 0.06);
   EXPECT_LT(std::abs(bias / count), 0.03);
-  EXPECT_EQ(kTurnedAside, static_cast<double>(0.14));
+  EXPECT_FLOAT_EQ(static_cast<float>(kTurnedAside), law::kReduced);
 }
 
 TEST(HostAxes, TheIncludeTakesBothUps) {
