@@ -193,7 +193,8 @@ TEST_P(HostShader, LightsASkyWithoutAVolumeOfLight) {
   Scene scene = cumulus();
   scene.quality.lightVolume = false;
   stage.sky->setScene(scene);
-  const Frame frame = stage.frame(scene);
+  Frame frame = stage.frame(scene);
+  frame.background = Background::host;
   HostPass pass(stage.gl,
                 "WelkinLight l = welkinLight(ray * 10.0); answer = vec4(l.sun.y, l.sky.y, "
                 "welkinSunShare(ray), welkinThrough(vec4(1.0), ray * 100.0).a);");
@@ -254,7 +255,8 @@ TEST(HostAxes, TheIncludeTakesBothUps) {
   Scene scene = cumulus();
   scene.camera.position = {1200.0, -3400.0, 900.0};
   stage.sky->setScene(scene);
-  const Frame z = stage.frame(scene);
+  Frame z = stage.frame(scene);
+  z.background = Background::host;
   Frame y = z;
   y.up = UpAxis::y;
   y.position = {z.position.x, z.position.z, -z.position.y};
@@ -308,6 +310,21 @@ TEST(HostBinding, RefusesAProgramWithoutTheInclude) {
   const gl::Program plain(stage.gl, "plain", "", "out vec4 o;\nvoid main() { o = vec4(1.0); }\n",
                           [](std::string_view) { return std::string_view(); });
   EXPECT_THROW(stage.sky->bindHost(stage.view, plain.id(), {}), Error);
+}
+
+TEST(HostBinding, RefusesCloudsThatHaveTheSkyInThem) {
+  Stage stage(kWidth, kHeight);
+  const Scene scene = cumulus();
+  stage.sky->setScene(scene);
+  const HostPass clouds(stage.gl, kFrontAtDistance), light(stage.gl, "answer = vec4(welkinLight(ray).sun, 1.0);");
+  Frame frame = stage.frame(scene);
+  View view;
+  stage.draw(view, frame);
+  EXPECT_THROW(stage.sky->bindHost(view, clouds.program(), {}), Error);
+  EXPECT_NO_THROW(stage.sky->bindHost(view, light.program(), {}));
+  frame.background = Background::host;
+  stage.draw(view, frame);
+  EXPECT_NO_THROW(stage.sky->bindHost(view, clouds.program(), {}));
 }
 
 TEST(HostBinding, ServesVertexShadersToo) {
@@ -367,6 +384,7 @@ TEST(OriginShift, ChangesNothing) {
                   "vec3(welkinSunShare(ray * 1000.0)), 1.0);");
     stage.sky->setScene(scene);
     Frame frame = stage.frame(scene);
+    frame.background = Background::host;
     frame.origin = driftOffset({scene.wind.speed, scene.wind.from, shift / scene.wind.speed});
     frame.time = time;
     View view;

@@ -254,6 +254,7 @@ TEST_P(HostState, IsTheSameAfterEveryCall) {
   gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
   frame.framebuffer = static_cast<unsigned>(name);
   frame.width = frame.height = 8;
+  frame.background = Background::host;
 
   GLuint sampler = 0;
   gl.GenSamplers(1, &sampler);

@@ -8,6 +8,7 @@
 #include "welkin/base/parallel.hpp"
 #include "welkin/noise/textures.hpp"
 #include "welkin/realtime/frame_params.hpp"
+#include "welkin/noise/blue_noise.hpp"
 #include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/weather_levels.hpp"
 
@@ -47,13 +48,12 @@ FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky
 }
 // Without a light volume: parity is that of the march.
 const int kLightVolume = 0;
-FN Real skyCoarseness(IN(Vec3), IN(Sky)) { return 1.0f; }
 FN Real skySunDepth(IN(Vec3), IN(Sky)) { return 0.0f; }
-FN Vec2 skyDiffuse(IN(Vec3), IN(Sky)) { return Vec2(0.0f); }
 FN Vec2 skyBelow(IN(Vec2), IN(Sky)) { return Vec2(0.0f); }
 FN int skySheetCount(IN(Sky) sky) { return static_cast<int>(sky.sheets.size()); }
 FN SheetParams skySheet(int i, IN(Sky) sky) { return sky.sheets[static_cast<std::size_t>(i)]; }
 
+#include "welkin/realtime/span.glsl"
 #include "welkin/realtime/march.glsl"
 #include "welkin/realtime/ray.glsl"
 #include "welkin/base/law_end.inc"
@@ -68,7 +68,11 @@ struct Textures {
 };
 
 // shaders/march.frag.glsl, first frame.
-float whiteNoise(int x, int y) { return law::unitFromHash(law::hashCell2(x, y, 9u)); }
+float dither(int x, int y) {
+  constexpr int kSize = 64;
+  static const std::vector<float> values = blueNoise(kSize, 1);
+  return roundedToHalf(values[static_cast<std::size_t>((y + 13) % kSize * kSize + (x + 47) % kSize)]);
+}
 
 Volume halves(Volume v) {
   roundToHalf(v);
@@ -166,7 +170,7 @@ Image marchOnCpu(const Scene& scene, const Frame& frame, std::span<const PlacedG
       const float x = static_cast<float>(i % frame.width), y = static_cast<float>(i / frame.width);
       const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) * glm::vec2(f.size.z, f.size.w) * 2.0f - 1.0f;
       const glm::vec3 dir = glm::normalize(law::cameraRay(ndc, f.camera));
-      own.dither = whiteNoise(static_cast<int>(x) + 4096, static_cast<int>(y) + 4096);
+      own.dither = dither(static_cast<int>(x), static_cast<int>(y));
       glm::vec4 colour;
       float depth = 0.0f, samples = 0.0f;
       law::renderRay(dir, 1e8f, glm::vec3(0.5f), march, air, sky.air.transmittance.view(), sky.aerialInscatter.view(),

@@ -38,7 +38,7 @@ FN Real erode(IN(Real) base, IN(Real) modifier, IN(float) amount) {
 }
 
 // As profileExtinctionIn; `full` false leaves the detail out (the cheap sample of 004 ch. 4.5.2). Its second number is
-// the cheap density, zero or less where no full sample can be in cloud.
+// the cheap density in place of a depth, zero where no full sample can be in cloud.
 FN Vec3 nubisExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Mask) full, IN(LayerParams) c, IN(Sampler3) baseNoise,
                           IN(Sampler3) detailNoise, IN(Sampler2) curlNoise) {
   Real h = (q.z - c.base - w.w) / c.thickness;

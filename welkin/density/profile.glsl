@@ -18,9 +18,8 @@ struct LayerParams {
   int shape, transition, hasAnvil, needsExtra;
 };
 
-// What a layer answers at a point: (extinction in 1/m, profile: <= 0 where no cloud can be, extinction times
-// precipitation).
-FN Vec3 noCloud() { return Vec3(0.0f, -1.0f, 0.0f); }
+// What a layer answers at a point: (extinction in 1/m, depth inside the outline that detail carves, extinction times
+// precipitation). The depth is in m, roughly, and not above 0 where no cloud can be.
 
 // Height above the base as a share of the layer's thickness.
 FN Real heightFraction(IN(Vec3) q, IN(LayerParams) c) { return saturate((q.z - c.base) / c.thickness); }
@@ -121,14 +120,16 @@ FN Vec3 profileExtinctionIn(IN(Vec4) w, IN(Vec3) q, IN(Real) footprint, IN(Layer
     Real f = sample3(detailNoise, q * c.fine.w + xyz(c.fine)).x;
     carved += c.fineDetail * (0.5f - f) * detailShare(footprint, 0.08f / c.fine.w, 0.2f / c.fine.w);
   }
-  depth = depth * amplitude - carved * (1.0f - 0.8f * ice);
+  Real outline = depth * amplitude;
+  depth = outline - carved * (1.0f - 0.8f * ice);
   Real dense = saturate(depth * mix(Real(c.inverseRamp), Real(c.anvilRamp), ice)) *
                smoothstep(0.0f, c.baseFade, hb + 2.0f * c.baseRagged * (n - 0.5f));
   Real liquid = 1.0f - c.liquidGradient + c.liquidGradient * sqrt(saturate(hb / c.thickness));
   Real sigma = c.extinction * dense * liquid * mix(Real(1.0f), c.anvilDensity * thin, ice);
   Mask within = both(q.z > c.bottom, q.z < c.top);
   sigma = select(within, sigma, Real(0.0f));
-  return Vec3(sigma, select(within, profile, Real(-1.0f)), sigma * w.w);
+  outline += max(0.5f * c.fineDetail, 0.0f);  // fine noise fills as much as it carves
+  return Vec3(sigma, select(within, outline, Real(-1.0f)), sigma * w.w);
 }
 
 // The answer at a point of cloud space, weather looked up in clip levels.

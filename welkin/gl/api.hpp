@@ -38,7 +38,7 @@ namespace welkin::gl {
   F(TEXIMAGE2D, TexImage2D) F(TEXIMAGE3D, TexImage3D) F(TEXPARAMETERI, TexParameteri) \
   F(TEXSUBIMAGE2D, TexSubImage2D) F(TEXSUBIMAGE3D, TexSubImage3D) F(UNIFORM1F, Uniform1f) F(UNIFORM1I, Uniform1i) \
   F(UNIFORM1UI, Uniform1ui) F(UNIFORM2F, Uniform2f) F(UNIFORM2I, Uniform2i) F(UNIFORM3F, Uniform3f) \
-  F(UNIFORM4F, Uniform4f) F(UNIFORM4FV, Uniform4fv) F(UNIFORMBLOCKBINDING, UniformBlockBinding) \
+  F(UNIFORM4F, Uniform4f) F(UNIFORM4I, Uniform4i) F(UNIFORM4FV, Uniform4fv) F(UNIFORMBLOCKBINDING, UniformBlockBinding) \
   F(UNIFORMMATRIX3FV, UniformMatrix3fv) F(UNIFORMMATRIX4FV, UniformMatrix4fv) F(USEPROGRAM, UseProgram) \
   F(VIEWPORT, Viewport) F(CULLFACE, CullFace)
 // Absent from some contexts that we serve; null there.

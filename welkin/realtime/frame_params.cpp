@@ -1,6 +1,8 @@
 #include "welkin/realtime/frame_params.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "welkin/scene/camera.hpp"
 
@@ -18,12 +20,12 @@ glm::mat3 worldAxes(UpAxis up) {
   return up == UpAxis::z ? glm::mat3(1.0f) : glm::mat3(glm::vec3(1, 0, 0), glm::vec3(0, 0, 1), glm::vec3(0, -1, 0));
 }
 
-// What the composite pass shows behind the clouds: 0 the host's picture, 1 the sky, 2 the sky with the sun's disc; 3
-// asks for the transmittance instead.
+// What is behind the clouds: 0 the host's picture; 1 the sky, which is in the history; 2 the sky, which the composite
+// pass adds up to the edges of the host's geometry; 3 asks for the transmittance instead.
 float behindClouds(const Frame& frame) {
   if (frame.output == Output::transmittance) return 3.0f;
   if (frame.background == Background::host) return 0.0f;
-  return frame.output == Output::light ? 2.0f : 1.0f;
+  return frame.depthTexture != 0 ? 2.0f : 1.0f;
 }
 
 double fraction(double x) { return x - std::floor(x); }
@@ -92,6 +94,18 @@ void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& 
 bool sameView(const FrameParams& a, const FrameParams& b) {
   return a.clipFromWorld == b.clipFromWorld && a.camera.angles == b.camera.angles && a.size == b.size &&
          a.wind.w == b.wind.w;
+}
+
+bool mayShow(const FrameParams& params, const glm::vec3& direction, float radius) {
+  if (params.camera.forward.w > 0.5f) return true;
+  const glm::vec3 forward(params.camera.forward), right(params.camera.right), above(params.camera.above);
+  const auto angleTo = [&](const glm::vec3& way) {
+    return std::acos(std::clamp(glm::dot(glm::normalize(way), glm::normalize(forward)), -1.0f, 1.0f));
+  };
+  float corner = 0.0f;
+  for (const float x : {-1.0f, 1.0f})
+    for (const float y : {-1.0f, 1.0f}) corner = std::max(corner, angleTo(forward + x * right + y * above));
+  return angleTo(direction) < corner + radius;
 }
 
 Frame frameOf(const Camera& camera, int width, int height) {

@@ -29,6 +29,9 @@ void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& 
                 History history, float share);
 
 // Whether two frames look the same way (position and time apart).
+// Whether something round a direction (to `radius` rad) may be in the picture.
+bool mayShow(const FrameParams& params, const glm::vec3& direction, float radius);
+
 bool sameView(const FrameParams& a, const FrameParams& b);
 
 // The frame of the scene's camera for a picture of this size.

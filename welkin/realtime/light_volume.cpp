@@ -53,6 +53,7 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
   sun_ = volume(gl::kR16F, extent_.levels);
   diffuse_ = volume(gl::kRg16F, extent_.levels);
   share_ = volume(gl::kR16F, 1);
+  steps_ = volume(gl::kR16F, 1);
   scalarSlice_ = {plane(gl::kR16F), plane(gl::kR16F)};
   lightSlice_ = {plane(gl::kRg16F), plane(gl::kRg16F)};
 }
@@ -62,6 +63,7 @@ std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() 
           {"light volume: diffuse", &diffuse_},
           {"light volume: density", &density_},
           {"light volume: share", &share_},
+          {"light volume: steps", &steps_},
           {"light volume: slice a", &scalarSlice_[0]},
           {"light volume: slice b", &scalarSlice_[1]},
           {"light volume: light slice a", &lightSlice_[0]},
@@ -90,7 +92,7 @@ law::LightVolumeParams LightVolume::place(const glm::dvec2& position, const Drif
   params_.slices = static_cast<float>(slices_);
   const float rise = (shell.top - shell.bottom) / static_cast<float>(slices_);
   params_.shift = glm::vec4(glm::vec2(sunward_) * (rise / std::max(sunward_.z, kLeastSlant)),
-                            static_cast<float>(1.0 / kPlanetRadius), 0.0f);
+                            static_cast<float>(1.0 / kPlanetRadius), static_cast<float>(extent_.texels));
   params_.inverseDepth = 1.0f / static_cast<float>(sun_.depth());
   for (int i = 0; i < extent_.levels; ++i) {
     Level& level = levels_[static_cast<std::size_t>(i)];
@@ -169,23 +171,27 @@ void LightVolume::fillDensity(const gl::Program& program, gl::Framebuffer& frame
 
 void LightVolume::fillSun(gl::Framebuffer& framebuffer, int level) {
   use(sunPass_, level);
-  const float height = (shell_.top - shell_.bottom) / static_cast<float>(slices_);
+  const float height = shell_.top - shell_.bottom, slice = height / static_cast<float>(slices_);
+  const float edge = static_cast<float>(extent_.edge(level)), texel = edge / static_cast<float>(extent_.texels);
+  const float rise = std::max(sunward_.z, kLeastSlant), across = std::max(glm::length(glm::vec2(sunward_)), 1e-3f);
+  const float step = std::min(slice / rise, texel / across);
+  const float longest = std::min(height / rise, 1.42f * edge / across);
+  const int doublings = static_cast<int>(std::ceil(std::log2(std::max(longest / step, 2.0f))));
   gl_.Uniform4f(sunPass_.uniform("uSunward"), sunward_.x, sunward_.y, sunward_.z, kLeastSlant);
   gl_.Uniform1i(sunPass_.uniform("uCoarsest"), level == extent_.levels - 1 ? 1 : 0);
-  // A step toward the sun is about as long as a texel is wide.
-  const float way = height / std::max(sunward_.z, kLeastSlant);
-  const float texel = static_cast<float>(extent_.edge(level) / extent_.texels);
-  const float steps = std::clamp(std::ceil(way / texel), 2.0f, 16.0f);
-  for (int s = slices_ - 1; s >= 0; --s) {
-    const auto now = static_cast<std::size_t>(s & 1);
-    slice(sunPass_, s);
-    gl_.Uniform2f(sunPass_.uniform("uWay"), shell_.bottom + (static_cast<float>(s) + 1.5f) * height, steps);
-    gl_.Uniform1i(sunPass_.uniform("uTop"), s == slices_ - 1 ? 1 : 0);
-    bind(sunPass_, "uAbove", scalarSlice_[1 - now], kUnits + 3);
-    const gl::Texture* const targets[] = {&scalarSlice_[now]};
-    framebuffer.target(targets);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-    copy(0, sun_, level * slices_ + s);
+  for (int i = 0; i <= doublings; ++i) {
+    const bool last = i == doublings;
+    gl_.Uniform2f(sunPass_.uniform("uWay"), i == 0 ? 0.0f : std::ldexp(step, i - 1), step);
+    gl_.Uniform1i(sunPass_.uniform("uLast"), last ? 1 : 0);
+    const gl::Texture &from = i % 2 == 0 ? share_ : steps_, &to = i % 2 == 0 ? steps_ : share_;
+    bind(sunPass_, "uSteps", from, kUnits + 3);
+    for (int s = 0; s < slices_; ++s) {
+      this->slice(sunPass_, s);
+      const gl::Texture* const targets[] = {last ? &scalarSlice_[0] : &to};
+      framebuffer.target(targets, last ? 0 : s);
+      gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+      if (last) copy(0, sun_, level * slices_ + s);
+    }
   }
 }
 

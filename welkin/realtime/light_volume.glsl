@@ -12,42 +12,55 @@ struct LightVolumeParams {
   ClipParams levels;
   float bottom, inverseHeight;  // of the shell that it fills, m
   float slices, inverseDepth;   // slices of a level; 1 / slices of all
-  vec4 shift;                   // xy: way of the sunlight across from one slice to the next, m; z: 1 / planet's radius
+  vec4 shift;                   // xy: way of the sunlight across from one slice to the next, m; z: 1 / planet's radius; w: cells
+                                // across a level
 };
 
 const float kReduced = 0.14f;  // share of the extinction that makes light forget where it came from
 
 const float kClearing = 800.0f;  // m: air is taken for clear where light goes so far before it meets a droplet
 
-// Where the volume holds what it knows of q.
-FN Vec3 lightVolumePlace(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v) {
+// The finest level that holds q: how its texture coordinates follow from a place (x: scale, yz: offset), w: its number.
+FN Vec4 lightVolumeLevel(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v) {
   Vec3 place = weatherPlace(v.levels, Vec2(q.x, q.y), dither);
+  Real scale = levelScale(v.levels, place.z);
+  return Vec4(scale, place.x - q.x * scale, place.y - q.y * scale, place.z);
+}
+
+// Width of its cells against those of the finest.
+FN Real lightVolumeCoarseness(IN(Vec4) level, IN(LightVolumeParams) v) {
+  return v.levels.level0.inverseSize / level.x;
+}
+
+// Where the volume holds what that level knows of q.
+FN Vec3 lightVolumePlace(IN(Vec4) level, IN(Vec3) q, IN(LightVolumeParams) v) {
   Real slice = clamp((q.z - v.bottom) * v.inverseHeight * v.slices, 0.5f, v.slices - 0.5f);
-  return Vec3(place.x, place.y, (place.z * v.slices + slice) * v.inverseDepth);
+  return Vec3(q.x * level.x + level.y, q.y * level.x + level.z, (level.w * v.slices + slice) * v.inverseDepth);
 }
 
-// Width of the cells there against those of the finest level.
-FN Real lightVolumeCoarseness(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v) {
-  return v.levels.level0.inverseSize / levelScale(v.levels, weatherPlace(v.levels, Vec2(q.x, q.y), dither).z);
-}
-
-// Optical depth toward the sun. Between slices the light runs aslant, and so does the interpolation: straight up it would
-// mix the shadows of two slices side by side.
-FN Real lookupSunDepth(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v, IN(Sampler3) sun) {
+// Optical depth toward the sun. Between slices the light runs aslant, and so does the interpolation, by a cell at most:
+// straight up it would mix the shadows of two slices side by side.
+FN Real sunDepthIn(IN(Vec4) level, IN(Vec3) q, IN(LightVolumeParams) v, IN(Sampler3) sun) {
   Real at = (q.z - v.bottom) * v.inverseHeight * v.slices - 0.5f;
   Real slice = clamp(at, 0.0f, v.slices - 1.0f);
-  // From below the way is followed up to the lowest slice.
-  Real down = max(-at, 0.0f);
-  Vec3 place = weatherPlace(v.levels, Vec2(q.x + v.shift.x * down, q.y + v.shift.y * down), dither);
   Real below = floor(slice);
   Real share = slice - below;
-  Vec2 scale = Vec2(v.shift.x, v.shift.y) * levelScale(v.levels, place.z);
-  Real first = place.z * v.slices + below + 0.5f;
-  Vec2 low = xy(place) - scale * share;
-  Vec2 high = xy(place) + scale * (1.0f - share);
+  Vec2 place = Vec2(q.x * level.x + level.y, q.y * level.x + level.z);
+  Vec2 shift = Vec2(v.shift.x, v.shift.y) * level.x;
+  Vec2 scale = shift * min(1.0f / max(length(shift) * v.shift.w, 1e-6f), 1.0f);
+  Real first = level.w * v.slices + below + 0.5f;
+  Vec2 low = place - scale * share;
+  Vec2 high = place + scale * (1.0f - share);
   Real a = sample3(sun, Vec3(low.x, low.y, first * v.inverseDepth)).x;
-  Real b = sample3(sun, Vec3(high.x, high.y, min(first + 1.0f, (place.z + 1.0f) * v.slices - 0.5f) * v.inverseDepth)).x;
+  Real b = sample3(sun, Vec3(high.x, high.y, min(first + 1.0f, (level.w + 1.0f) * v.slices - 0.5f) * v.inverseDepth)).x;
   return mix(a, b, share);
+}
+
+// From anywhere: from below the way is followed up to the lowest slice.
+FN Real lookupSunDepth(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v, IN(Sampler3) sun) {
+  Real down = max(0.5f - (q.z - v.bottom) * v.inverseHeight * v.slices, 0.0f);
+  Vec3 above = Vec3(q.x + v.shift.x * down, q.y + v.shift.y * down, q.z);
+  return sunDepthIn(lightVolumeLevel(above, dither, v), above, v, sun);
 }
 
 // The light that comes down on what lies below the clouds there, without direction, per irradiance of the sun and per

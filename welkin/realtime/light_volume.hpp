@@ -54,7 +54,8 @@ class LightVolume {
   QualityPreset preset_;
   WeatherExtent extent_;                         // squares and their texels
   int slices_;                                   // of a level, from the bottom of the clouds to their top
-  gl::Texture density_, sun_, diffuse_, share_;  // share_: light_diffusion.frag.glsl
+  gl::Texture density_, sun_, diffuse_;
+  gl::Texture share_, steps_;  // light_diffusion.frag.glsl and light_sun.frag.glsl, which uses both by turns
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
   gl::Program sunPass_, startPass_, diffusionPass_, columnPass_;
   gl::UniformBuffer block_;

@@ -2,20 +2,7 @@
 // the sample is for. That form is the fastest on wide SIMD machines, Mesa's software driver among them. The reader
 // supplies, before this file, `struct Sky` and
 //   Vec3 skyExtinction(Vec3 q, Real footprint, Mask full, Sky sky)
-// which answers (extinction in 1/m, profile, extinction times precipitation) of all layers at a point of cloud space, and
-//   const int kLightVolume, Real skyCoarseness(Vec3 q, Sky), Real skySunDepth(Vec3 q, Sky), Vec2 skyDiffuse(Vec3 q, Sky),
-//   Vec2 skyBelow(Vec2 p, Sky)
-// whether there is a light volume, the width of its cells against the finest, its optical depth toward the sun, its light
-// without direction, and what of that comes down below the clouds.
-
-struct MarchResult {
-  Vec3 radiance;      // light that the clouds send, without the air in between
-  Real transmittance;
-  Real depth;         // opacity-weighted mean distance, m; maxDistance where there is no cloud
-  Real ground;        // share of sunlight that reaches the ground where the ray meets it; -1 where it does not
-  Real groundDepth;   // distance of that point
-  Real samples;       // density samples taken
-};
+// which answers (extinction in 1/m, profile, extinction times precipitation) of all layers at a point of cloud space.
 
 const float kLightFirst = 15.0f;   // m, first step toward the sun
 const float kAmbientFirst = 60.0f;
@@ -37,21 +24,11 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
                      IN(MarchParams) m, IN(Sky) sky) {
   Vec3 sun = Vec3(m.sun.x, m.sun.y, m.sun.z);
   Vec3 up = Vec3(m.planet.up.x, m.planet.up.y, m.planet.up.z);
-  Vec2 outer = crossings(dir, m.top, m.planet);
-  Vec2 inner = crossings(dir, m.bottom, m.planet);
-  Vec2 surface = crossings(dir, 0.0f, m.planet);
-  Mask hitsGround = surface.x > 0.0f;
-  Real tGround = select(hitsGround, surface.x, Real(1e9f));
-  Real t = max(outer.x, 0.0f);
-  Real tEnd = outer.y;
-  if (m.planet.altitude < m.bottom) {
-    t = inner.y;
-  } else {
-    tEnd = select(inner.x > 0.0f, min(tEnd, inner.x), tEnd);
-  }
-  tEnd = min(min(tEnd, min(tGround, limit)), m.maxDistance);
-  Mask drawGround = both(both(hitsGround, tGround <= limit), toMask(m.groundAlbedo.w > 0.0f));
-  Mask marchGround = both(drawGround, toMask(kLightVolume == 0));
+  RaySpan span = raySpan(dir, limit, m);
+  Real t = span.start;
+  Real tEnd = span.end;
+  Real tGround = span.ground;
+  Mask marchGround = span.drawGround;
 
   // Octaves of multiple scattering (Wrenninge 2013, Hillaire 2016): each with less energy, less extinction and a rounder
   // phase function than the one before.
@@ -73,7 +50,6 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     octaveGain *= m.contribution;
     roundness *= m.eccentricity;
   }
-  Real broad = phaseHenyeyGreenstein(cosTheta, Real(0.6f));
   Real steps = mix(Real(float(m.fixedStepsHorizon)), Real(float(m.fixedSteps)), abs(dot(dir, up)));
   Real rayStep = max((tEnd - t) / max(steps, 1.0f), 1.0f);
   Real lastStep = clamp(t * m.stepScale, m.minStep, m.maxStep);
@@ -125,13 +101,6 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     if (m.nubis != 0) full = both(full, either(along, transmittance > 0.7f));
     Vec3 found = skyExtinction(q, footprint, full, sky);
     samples += select(mode < 3.5f, Real(1.0f), Real(0.0f));
-    Real beyond = 0.0f;  // optical depth toward the sun where the steps toward it end
-    Vec2 spread = Vec2(0.0f);
-    if (kLightVolume != 0) {
-      beyond = skySunDepth(cloudSpace(dir * t + sun * (lightAt + lightStep), m.planet), sky);
-      // The light that comes toward the eye has set out deeper inside.
-      spread = skyDiffuse(cloudSpace(dir * (t + m.transportPath), m.planet), sky);
-    }
 
     // Along the ray: find cloud, refine its edge, then light the point.
     Mask cloud = both(along, found.x > 0.0f);
@@ -164,15 +133,12 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
     groundTau += select(fromGround, found.x * (shell / (float(m.groundSteps) * slant)), Real(0.0f));
     k = select(either(light, empty), Real(0.0f), k + 1.0f);
     Mask sunDone = both(toSun, k > float(m.lightSteps) - 0.5f);
-    tau += select(sunDone, beyond, Real(0.0f));
     Mask upDone = both(upward, k > float(m.ambientSteps) - 0.5f);
     Real first = kLightFirst;
     if (m.nubis != 0) first = Real(shell * 0.03f);
     lightAt = select(light, Real(0.0f), select(either(toSun, upward), lightAt + lightStep, lightAt));
     if (m.nubis != 0) lightAt = select(either(light, both(toSun, k < 4.5f)), first * (k + 1.0f),
                                        select(toSun, first * 18.0f, lightAt));
-    // The light volume is as fine as the steps toward the sun that come before it.
-    if (kLightVolume != 0) first = first * skyCoarseness(q, sky);
     lightStep = select(light, first, lightStep);
     if (m.nubis == 0) lightStep = select(both(toSun, invert(sunDone)), lightStep * m.lightRatio, lightStep);
     lightStep = select(both(upward, invert(upDone)), lightStep * kAmbientRatio, lightStep);
@@ -203,21 +169,12 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
         reach *= m.octaveExtinction;
       }
       source = sunlight * (scattered * powder);
-      if (kLightVolume != 0) {
-        // What has been scattered forward goes on in nearly the same direction, the rest spreads.
-        Real forward = exp(-kReduced * thick) - exp(-thick);
-        Real turned = (spread.x + m.beam * exp(-kReduced * thick)) * 0.318309886f;
-        source = sunlight * ((phases[0] * exp(-thick) + broad * forward) * powder + turned);
-        source += xyz(m.ambientSky) * (m.ambientSky.w * spread.y);
-        source += xyz(m.ambientGround) * (m.ambientGround.w * (1.0f - spread.y));
-      } else {
       Real above = sigma * max(q.z - m.bottom, 0.0f);
       source += xyz(m.ambientSky) * (m.ambientSky.w * 0.75f * exp(-0.12f * tauUp));
       // Deep inside, light has lost its direction and falls off as in two-stream theory with g = 0.86.
       Real over = tauUp * (1.0f + m.rainAbsorption * rain);
       source += xyz(m.diffused) * (m.diffused.w * (1.0f - exp(-0.12f * tauUp)) / (1.0f + 0.105f * over));
       source += xyz(m.ambientGround) * (m.ambientGround.w * (0.5f * exp(-0.072f * above) + 0.03f));
-      }
     }
 #ifdef LIGHTNING
     source += skyLightning(cloudSpace(dir * t, m.planet), sky);
@@ -248,12 +205,10 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   r.radiance = radiance;
   r.transmittance = select(transmittance < m.earlyExit, Real(0.0f), transmittance);
   r.depth = select(depthWeight > 1e-4f, depthSum / max(depthWeight, 1e-4f), Real(m.maxDistance));
-  if (kLightVolume != 0) groundTau = skySunDepth(cloudSpace(dir * tGround, m.planet), sky);
   // Direct light, and what the cloud scatters down (two-stream, g = 0.86), of which about half falls elsewhere.
   Real direct = exp(-min(groundTau, 40.0f));
-  Real lit = exp(-kReduced * groundTau);  // what has been scattered forward arrives nearly from where it came
-  if (kLightVolume == 0) lit = direct + 0.5f * (1.0f - direct) / (1.0f + 0.105f * groundTau);
-  r.ground = select(drawGround, lit, Real(-1.0f));
+  Real lit = direct + 0.5f * (1.0f - direct) / (1.0f + 0.105f * groundTau);
+  r.ground = select(span.drawGround, lit, Real(-1.0f));
   r.groundDepth = tGround;
   r.samples = samples;
   return r;

@@ -14,8 +14,8 @@ namespace {
 constexpr int kZenithSteps = 64, kHorizonSteps = 128;
 constexpr float kStepPerMetre = 0.004f, kMinStep = 12.0f, kMaxStep = 250.0f;  // look: the coarsest without hatching
 constexpr float kFar = 300000.0f;                                             // m, where clouds have faded into the air
-constexpr int kNearSteps = 3;  // toward the sun before the light volume: 15, 30 and 60 m, about a texel of it
-constexpr float kNearRatio = 2.0f;
+// Toward the sun before the light volume: so far in all, about a texel of it.
+constexpr float kNearReach = 105.0f, kNearRatio = 2.0f;
 constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets; a test counts
 
 // How much of a closed layer's depth the marches toward the light have to see, lest its underside be lit as if sun and
@@ -152,9 +152,10 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.lightRatio = lightRatio(q.lightSteps, lightReach(closedDepth(scene), sunHeight));
   if (q.lightVolume && l.model != LightingModel::nubis) {
     // The light volume sees the rest.
-    m.lightSteps = std::min(q.lightSteps, kNearSteps);
+    m.lightSteps = std::clamp(q.lightSteps / 4, 1, 3);
     m.ambientSteps = 0;
     m.lightRatio = kNearRatio;
+    m.nearReach = kNearReach / (std::exp2(static_cast<float>(m.lightSteps)) - 1.0f);
   }
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;

@@ -17,7 +17,8 @@ struct MarchParams {
   float forwardG, backwardG, backwardWeight, rainAbsorption;
   int octaves, lightSteps, ambientSteps, refine;
   int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
-  int maxTurns, groundSteps, useDroplets, spare0;
+  int maxTurns, groundSteps, useDroplets;
+  float nearReach;      // m, the first near step toward the sun where the light volume's cells are finest
   float lightRatio;  // each step toward the sun against the last
   float transportPath;  // m, on which light inside the clouds forgets its direction
   float beam;           // share of the sun's light that reaches a place, counted as light without direction

@@ -1,5 +1,8 @@
 // What one ray of the picture shows: clouds, sheets and ground, with the air in between; not the sky behind. The
-// reader supplies skySheetCount(Sky) and skySheet(int, Sky) besides what march.glsl asks for.
+// reader supplies skySheetCount(Sky) and skySheet(int, Sky) besides what the march asks for, and
+//   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky)
+// whether there is a light volume, its optical depth toward the sun, and the light without direction that comes down
+// below the clouds.
 
 // The sheet's light over its opacity: a thin layer lit through half of itself.
 FN Vec3 sheetSource(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Vec3) sunlight, IN(MarchParams) m) {

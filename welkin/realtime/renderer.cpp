@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
 
 #include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/gl/state.hpp"
+#include "welkin/noise/blue_noise.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/grid_atlas.hpp"
 #include "welkin/realtime/host.hpp"
@@ -27,6 +29,7 @@ namespace welkin::realtime {
 
 namespace {
 
+constexpr int kBlueNoiseSize = 64;
 constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
 // The uniform block "Layers" of the passes that march through clouds.
@@ -105,16 +108,16 @@ struct Renderer::State {
   bool hasScene = false;
   int sceneNumber = 0, cloudsNumber = 0;
   Heavens heavens;
-  gl::Program compositeMoon, compositeNight;
-  glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};  // of the light: by night it is the moon's
-  gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white;
+  std::map<std::string, gl::Program> composites;  // by the defines of the variant
+  glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};       // of the light: by night it is the moon's
+  gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white, blueNoise;
   std::vector<gl::Texture> maps;
   std::unique_ptr<WeatherLevels> weather;
   std::unique_ptr<LightVolume> light;
   GridAtlas grids;
   std::vector<PlacedGrid> placedGrids;  // that it was made of
   float gridExtinction = 0.0f;          // their greatest, 1/m
-  gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, composite, weatherProgram;
+  gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
@@ -130,11 +133,12 @@ struct Renderer::State {
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
     white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
                         texel.data());
+    blueNoise = gl::Texture(gl, gl::Texture::Kind::plane, gl::kR16F, kBlueNoiseSize, kBlueNoiseSize, 0,
+                            gl::Filter::nearest, gl::Addressing::repeat, welkin::blueNoise(kBlueNoiseSize, 1).data());
     const auto resolveText = fileText("welkin/realtime/shaders/resolve.frag.glsl");
     resolve = gl::Program(gl, "resolve", "", resolveText, shaderSource);
     resolveAveraged = gl::Program(gl, "resolve, averaged", "#define AVERAGE\n", resolveText, shaderSource);
     resolveFirstRound = gl::Program(gl, "resolve, first round", "#define FIRST_ROUND\n", resolveText, shaderSource);
-    composite = gl::Program(gl, "composite", "", fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
     weatherProgram =
         gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
   }
@@ -188,11 +192,11 @@ struct Renderer::State {
   void marchPass(View::State& view, const Frame& frame);
   void resolvePass(View::State& view, const gl::Program& program);
   void lightningOf(const glm::dvec2& place, double time);
-  void compositePass(const View::State& view, const Frame& frame);
+  void compositePass(const View::State& view, const Frame& frame, const FrameParams& params);
+  const gl::Program& compositeProgram(const Frame& frame, const FrameParams& params);
   void checkFrame(const Frame& frame) const;
   void keepForHost(View::State& view, const Frame& frame, const FrameParams& params);
   void checkHostView(const View::State& view) const;
-  const gl::Program& compositeProgram();
   float exposure() const;
 };
 
@@ -247,11 +251,17 @@ void Renderer::State::makeMarch() {
         "inGrid = gridExtinction(q, uGrid[{}], uGridIndex, uGridBricks); "
         "sum = vec3(sum.x + inGrid.x, max(sum.y, inGrid.y), sum.z); ",
         i);
+  std::string clearance;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    clearance +=
+        fmt::format("clear = min(clear, layerClearance(q, way, sky.dither, uLayer[{0}], uClip[{0}], uBounds)); ", i);
+  for (std::size_t i = 0; i < grids.count(); ++i)
+    clearance += fmt::format("clear = min(clear, gridClearance(q, way, uGrid[{}])); ", i);
   const std::string clouds =
       fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n",
                   kMaxLayers, scene.sheets.size(), kMaxGrids, layers);
-  const std::string defines =
-      clouds + (counting ? "#define COUNT_SAMPLES\n" : "") + (light ? "#define LIGHT_VOLUME\n" : "");
+  const std::string defines = clouds + (counting ? "#define COUNT_SAMPLES\n" : "") +
+                              (light ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
   if (text == marchDefines) return;
   if (light)
@@ -439,10 +449,13 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   bind(march, "uTransmittance", sky.transmittance(), unit++);
   bind(march, "uAerialInscatter", sky.aerialInscatter(), unit++);
   bind(march, "uAerialTransmittance", sky.aerialTransmittance(), unit++);
+  bind(march, "uSkyView", sky.skyView(), unit++);
+  bind(march, "uBlueNoise", blueNoise, unit++);
   bindHostDepth(march, frame, unit++);
   if (light) {
     bind(march, "uSun", light->sun(), unit++);
     bind(march, "uDiffuse", light->diffuse(), unit++);
+    if (weather) bind(march, "uBounds", weather->bounds(), unit++);
   }
   bindClouds(march, unit);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -482,15 +495,20 @@ void Renderer::State::lightningOf(const glm::dvec2& place, double time) {
   lightningBuffer.upload(&l, sizeof l);
 }
 
-// Moon and stars are variants, since the software driver runs all of a shader.
-const gl::Program& Renderer::State::compositeProgram() {
-  if (!heavens.starsShow && !heavens.moonShows) return composite;
-  gl::Program& program = heavens.starsShow ? compositeNight : compositeMoon;
-  if (program.id() == 0)
-    program = gl::Program(gl, heavens.starsShow ? "composite, night" : "composite, moon",
-                          heavens.starsShow ? "#define NIGHT\n#define STARS\n" : "#define NIGHT\n",
-                          fileText("welkin/realtime/shaders/composite.frag.glsl"), shaderSource);
-  return program;
+const gl::Program& Renderer::State::compositeProgram(const Frame& frame, const FrameParams& params) {
+  const bool drawn = frame.background != Background::host && frame.output != Output::transmittance;
+  std::string defines;
+  if (drawn && frame.depthTexture) defines += "#define SKY\n";
+  if (drawn && frame.output == Output::light && mayShow(params, glm::vec3(sky.params().air.sunDirection), 0.05f))
+    defines += "#define DISC\n";
+  if (drawn && heavens.moonShows) defines += "#define MOON\n";
+  if (drawn && heavens.starsShow) defines += "#define STARS\n";
+  const auto found = composites.find(defines);
+  if (found != composites.end()) return found->second;
+  return composites
+      .emplace(defines, gl::Program(gl, "composite", defines, fileText("welkin/realtime/shaders/composite.frag.glsl"),
+                                    shaderSource))
+      .first->second;
 }
 
 // By night the history holds light times this: half floats lose digits below 6e-5, which is a moonlit cloud.
@@ -500,20 +518,20 @@ float Renderer::State::exposure() const {
   return night ? kNightExposure : 1.0f;
 }
 
-void Renderer::State::compositePass(const View::State& view, const Frame& frame) {
+void Renderer::State::compositePass(const View::State& view, const Frame& frame, const FrameParams& params) {
   gl.BindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
   gl.Viewport(0, 0, frame.width, frame.height);
   gl.Enable(GL_BLEND);
   gl.BlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
   gl.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_ONE);
-  const gl::Program& program = compositeProgram();
+  const gl::Program& program = compositeProgram(frame, params);
   gl.UseProgram(program.id());
   program.bindBlock("Frame", kFrameBlock);
   program.bindBlock("Air", kLayersBlock);
   frameBuffer.bind(kFrameBlock);
   weatherBuffer.upload(&sky.params().air, sizeof(law::AtmosphereParams));
   weatherBuffer.bind(kLayersBlock);
-  if (&program != &composite) {
+  if (heavens.moonShows || heavens.starsShow) {
     program.bindBlock("Night", kNightBlock);
     nightBuffer.upload(&heavens.night, sizeof heavens.night);
     nightBuffer.bind(kNightBlock);
@@ -576,6 +594,11 @@ void Renderer::bindHost(const View& view, unsigned program, const HostBindings& 
   const State& s = *state_;
   const View::State& v = *view.state_;
   s.checkHostView(v);
+  const bool onlyClouds = !v.last || (v.last->options.z != 1.0f && v.last->camera.forward.w < 0.5f);
+  if (!onlyClouds && s.gl.GetUniformLocation(program, "uWelkinClouds") >= 0)
+    throw Error(ErrorKind::badInput, "",
+                "welkinFront() and welkinThrough() need a perspective frame with depthTexture or Background::host: "
+                "without them the sky is part of what the view knows of its clouds");
   const HostSampler samplers[] = {{"uWelkinClouds", GL_TEXTURE_2D, &v.history[static_cast<std::size_t>(v.current)]},
                                   {"uWelkinCloudDepth", GL_TEXTURE_2D, &v.marchedDepth},
                                   {"uWelkinTransmittance", GL_TEXTURE_2D, &s.sky.transmittance()},
@@ -625,6 +648,7 @@ void Renderer::render(View& view, const Frame& frame) {
   FrameParams params = frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
   params.wind.w *= v.exposure;
   params.options.x = 1.0f / v.exposure;
+  if (v.last && v.last->options.z != params.options.z) view.reset();
   const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != glm::dvec3(place, position.z) ||
                      v.lastTime != frame.time || v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
@@ -651,7 +675,7 @@ void Renderer::render(View& view, const Frame& frame) {
   const bool average = s.scene.quality.averageHistory && history != History::none;
   s.resolvePass(v, history == History::begun ? s.resolveFirstRound : average ? s.resolveAveraged : s.resolve);
   s.timers.mark("resolve");
-  s.compositePass(v, frame);
+  s.compositePass(v, frame, params);
   s.timers.mark("composite");
   s.gl.check("drawing a frame");
 
@@ -697,6 +721,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   if (s.weather) {
     add("weather", s.weather->main());
     add("weather extra", s.weather->extra());
+    add("weather bounds", s.weather->bounds());
   }
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
   if (s.light)
@@ -704,6 +729,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   add("grid index", s.grids.index());
   add("grid bricks", s.grids.bricks());
   add("no map", s.white);
+  add("blue noise", s.blueNoise);
   add("sky transmittance", s.sky.transmittance());
   add("sky multiple scattering", s.sky.multiScattering());
   add("sky view", s.sky.skyView());

@@ -103,7 +103,8 @@ struct TextureName {
 // the names are for passes that the host has already.
 struct Outputs {
   // RGBA16F, linear, at the history's resolution: light that clouds (and air before them) send, times `cloudsFactor` in
-  // kcd/m^2, and in alpha the share of light from behind that comes through.
+  // kcd/m^2, and in alpha the share of light from behind that comes through. Of a frame that has neither depthTexture
+  // nor Background::host it holds the sky besides.
   TextureName clouds;
   float cloudsFactor = 1.0f;
   // R16F, nearest, one texel for each block of the history: mean distance of the clouds from the eye, weighted by
@@ -156,7 +157,8 @@ class Renderer {
   // Gives a linked program of the host what the include reads, for the view that has been prepared or rendered last.
   // Changes the uniform block's binding, the textures of its type on as many units as the program uses samplers, and
   // unbinds the sampler objects there; all other state stays. Throws Error (badInput) when the program does not use the
-  // include, (failed) when another view, or none, was prepared last.
+  // include, or asks for the clouds of a frame whose sky is in the same texture (see Outputs::clouds), (failed) when
+  // another view, or none, was prepared last.
   void bindHost(const View& view, unsigned program, const HostBindings& bindings);
 
   // What the view's last frame leaves; after prepare() alone the textures are those of the frame before. Throws Error

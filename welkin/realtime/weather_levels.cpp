@@ -1,12 +1,16 @@
 #include "welkin/realtime/weather_levels.hpp"
 
 #include <cmath>
+#include <string>
+
+#include "welkin/realtime/shader_sources.hpp"
 
 namespace welkin::realtime {
 
 namespace {
 constexpr double kLeash = 0.08;  // share of a level's edge that the camera may move before it is drawn again
-}
+constexpr int kCell = 4;         // texels of a cell of the bounds
+}  // namespace
 
 WeatherExtent weatherExtent(QualityPreset preset) {
   if (preset == QualityPreset::low || preset == QualityPreset::medium) return {256, 4, 14000.0, 3.0};
@@ -18,6 +22,10 @@ WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int
                                       layers * extent.levels, gl::Filter::linear, gl::Addressing::clamp, nullptr),
       extra_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels,
              gl::Filter::linear, gl::Addressing::clamp, nullptr),
+      bounds_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels / kCell, extent.texels / kCell,
+              layers * extent.levels, gl::Filter::nearest, gl::Addressing::clamp, nullptr),
+      boundsPass_(gl, "weather bounds", "",
+                  std::string(shaderSource("welkin/realtime/shaders/weather_bounds.frag.glsl")), shaderSource),
       levels_(static_cast<std::size_t>(layers) * static_cast<std::size_t>(extent.levels)) {}
 
 int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
@@ -46,10 +54,32 @@ int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& posit
     const gl::Texture* targets[] = {&main_, &extra_};
     framebuffer.target(targets, slice);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    fillBounds(layer, level, slice, framebuffer);
     cached.fresh = true;
     ++drawn;
   }
   return drawn;
+}
+
+void WeatherLevels::fillBounds(const Layer& layer, int level, int slice, gl::Framebuffer& framebuffer) {
+  const bool nubis = layer.cloud.shape == LayerShape::nubis;
+  const double texel = extent_.edge(level) / extent_.texels;
+  // Filtering reaches half a texel beyond a cell, the warp of profile.glsl half its strength.
+  const int reach = 1 + (nubis ? 0 : static_cast<int>(std::ceil(0.5 * layer.profile.warp / texel)));
+  gl_.UseProgram(boundsPass_.id());
+  const gl::Texture* const sources[] = {&main_, &extra_};
+  const char* const names[] = {"uWeather", "uExtra"};
+  for (int i = 0; i < 2; ++i) {
+    gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
+    gl_.BindTexture(sources[i]->target(), sources[i]->id());
+    gl_.Uniform1i(boundsPass_.uniform(names[i]), i);
+  }
+  gl_.Uniform4i(boundsPass_.uniform("uCells"), kCell, reach, slice, extent_.texels);
+  gl_.Uniform4f(boundsPass_.uniform("uLayer"), layer.cloud.thickness, nubis ? 0.0f : layer.profile.baseRagged,
+                nubis ? 0.0f : 0.5f * layer.profile.fineDetail, nubis ? 1.0f : 0.0f);
+  const gl::Texture* const targets[] = {&bounds_};
+  framebuffer.target(targets, slice);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 law::ClipParams WeatherLevels::params(int index, const glm::dvec2& position, const Drift& drift) const {

@@ -27,15 +27,20 @@ class WeatherLevels {
   // (height or coverage, base shift or type) and (anvil or precipitation, precipitation or base shift).
   const gl::Texture& main() const { return main_; }
   const gl::Texture& extra() const { return extra_; }
+  // Between which altitudes above the layer's base a block of texels has clouds: shaders/weather_bounds.frag.glsl.
+  const gl::Texture& bounds() const { return bounds_; }
 
  private:
   struct Level {
     glm::dvec2 centre{0.0};  // in the air's own frame, which drifts with the wind
     bool fresh = false;
   };
+  void fillBounds(const Layer& layer, int level, int slice, gl::Framebuffer& framebuffer);
+
   const gl::Api& gl_;
   WeatherExtent extent_;
-  gl::Texture main_, extra_;
+  gl::Texture main_, extra_, bounds_;
+  gl::Program boundsPass_;
   std::vector<Level> levels_;  // layer by layer
 };
 

@@ -13,7 +13,7 @@ struct ChoiceNames<QualityPreset> {
 struct Quality {
   QualityPreset preset = QualityPreset::high;
   int historyScale = 2;
-  int interleave = 2;
+  int interleave = 4;
   float stepScale = 1.0f;
   int lightSteps = 9;
   int ambientSteps = 3;
@@ -37,7 +37,7 @@ struct FieldTable<Quality> {
         field<&Quality::interleave>("interleave", {1, 2, 4}, "each frame marches one pixel in a block of this edge"),
         field<&Quality::stepScale>("step_scale", {0.05, 20}, {0.25, 4}, "length of the march's steps, as a multiple"),
         field<&Quality::lightSteps>("light_steps", {1, 16}, {},
-                                    "samples toward the sun; the light volume needs 3 at most"),
+                                    "samples toward the sun; with the light volume a quarter of them"),
         field<&Quality::ambientSteps>("ambient_steps", {0, 8}, {},
                                       "samples toward the zenith, where there is no light volume"),
         field<&Quality::refine>("refine", "finds the first hit of a ray by smaller steps"),

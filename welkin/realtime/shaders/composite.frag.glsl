@@ -1,5 +1,6 @@
-// Composite pass: the history over the sky, or over the host's picture by blending (one, source alpha). Variants: NIGHT
-// draws the moon, STARS besides it what else shines at night.
+// Composite pass: the history over the sky, or over the host's picture by blending (one, source alpha). The history has
+// the sky in it where no geometry of the host hides it. Variants, since the software driver runs all of a shader: SKY
+// adds the sky here, up to the edges of the host's geometry; DISC, MOON and STARS add what is sharper than the history.
 #include "welkin/base/law.glsl"
 #include "welkin/light/phase.glsl"
 #include "welkin/light/transmittance.glsl"
@@ -7,15 +8,13 @@
 #include "welkin/atmosphere/scattering.glsl"
 #include "welkin/atmosphere/models.glsl"
 #include "welkin/atmosphere/sky.glsl"
-#ifdef NIGHT
+#if defined(MOON) || defined(STARS)
 #include "welkin/atmosphere/night.glsl"
+layout(std140) uniform Night { NightParams uNight; };
 #endif
 #include "welkin/realtime/shaders/frame.glsl"
 
 layout(std140) uniform Air { AtmosphereParams uAir; };
-#ifdef NIGHT
-layout(std140) uniform Night { NightParams uNight; };
-#endif
 uniform sampler2D uHistory;
 uniform sampler2D uSkyView;
 uniform sampler2D uTransmittance;
@@ -27,25 +26,30 @@ layout(location = 0) out vec4 oColour;
 void main() {
   vec4 cloud = textureLod(uHistory, vUv, 0.0);
   cloud.rgb *= uOptions.x;
+  if (uOptions.z > 2.5) cloud = vec4(cloud.aaa, 0.0);
+#if defined(SKY) || defined(DISC) || defined(MOON) || defined(STARS)
   vec3 ray = rayAt(vUv * 2.0 - 1.0);
-  bool open = hostDistance(uHostDepth, vUv, ray) > 5e7;
-  if (uOptions.z > 2.5) {
-    oColour = vec4(cloud.aaa, 0.0);
-  } else if (uOptions.z > 0.5 && open) {
-    vec3 dir = normalize(ray);
-    vec3 behind = lookupSky(uSkyView, uAir, dir);
-    vec3 outside = vec3(0.0);
-    if (uOptions.z > 1.5) outside = sunDisc(uAir, dir, uOptions.w);
-#ifdef NIGHT
-    outside += moonDisc(uNight, dir, uOptions.w);
+  vec3 dir = normalize(ray), behind = vec3(0.0);
+#ifdef DISC
+  behind += sunDisc(uAir, dir, uOptions.w);
+#endif
+#ifdef MOON
+  behind += moonDisc(uNight, dir, uOptions.w);
 #endif
 #ifdef STARS
-    outside += starlight(uNight, dir, uOptions.w);
+  behind += starlight(uNight, dir, uOptions.w);
 #endif
-    behind += outside * lookupTransmittanceToSun(uTransmittance, uAir, uAir.cameraAltitude, dir.z);
-    // Clouds shade the air behind them, which makes their own share negative there.
-    oColour = vec4(max(cloud.rgb + cloud.a * min(behind * uWind.w * uOptions.x, vec3(60000.0)), vec3(0.0)), 0.0);
-  } else {
-    oColour = cloud;
-  }
+#if defined(DISC) || defined(MOON) || defined(STARS)
+  behind *= lookupTransmittanceToSun(uTransmittance, uAir, uAir.cameraAltitude, dir.z);
+#endif
+#ifdef SKY
+  behind += lookupSky(uSkyView, uAir, dir);
+#endif
+  // Clouds shade the air behind them, which makes their own share negative there.
+  if (hostDistance(uHostDepth, vUv, ray) > 5e7)
+    cloud = vec4(max(cloud.rgb + cloud.a * min(behind * uWind.w * uOptions.x, vec3(60000.0)), vec3(0.0)), 0.0);
+#endif
+  // Where Welkin draws the sky nothing of the target shines through.
+  if (uOptions.z == 1.0) cloud.a = 0.0;
+  oColour = cloud;
 }

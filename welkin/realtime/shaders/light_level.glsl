@@ -10,9 +10,4 @@ layout(std140) uniform Volume { LightVolumeParams uVolume; };
 uniform vec4 uLevel;        // xy: centre relative to the anchor, z: edge, w: texels; m
 uniform vec3 uSlice;        // altitude of the middle of its cells, their height in m; number
 uniform int uCoarsest;      // 1 for the coarsest level
-uniform sampler3D uDensity; // extinction of this level's cells: mean, for shadows
-
-// Extinction for shadows at slice coordinates: `slice` whole in the middle of cells.
-float density(vec2 uv, float slice) {
-  return slice > uVolume.slices - 0.5 ? 0.0 : textureLod(uDensity, vec3(uv, (slice + 0.5) / uVolume.slices), 0.0).y;
-}
+uniform sampler3D uDensity; // extinction of this level's cells: mean; for shadows

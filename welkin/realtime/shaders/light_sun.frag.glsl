@@ -1,35 +1,47 @@
-// Light volume, second pass: optical depth toward the sun of one slice, from the slice above it: each point adds what lies
-// between it and the slice above.
+// Light volume, second pass: optical depth toward the sun, by doubling. At first every cell knows that of a short step;
+// then, again and again, of twice as far, from itself and from where its way has ended. The last time it adds what the
+// coarser levels know of the rest.
 #include "welkin/realtime/shaders/light_level.glsl"
 
-uniform sampler2D uAbove;  // the slice above
+uniform sampler3D uSteps;  // optical depths of the steps so far, this level's cells
 uniform sampler3D uSun;    // coarser levels, finished before this one
 uniform vec4 uSunward;     // direction toward the sun; w: least sine of its height
-uniform vec2 uWay;         // altitude of the slice above; steps to it
-uniform int uTop;          // 1 for the topmost slice
+uniform vec2 uWay;         // length of the way that uSteps knows, 0 at first; of the first step; m
+uniform int uLast;         // 1 the last time
 
 in vec2 vUv;
 layout(location = 0) out vec4 oTau;
 
-float above(vec2 p) {
-  vec2 uv = (p - uLevel.xy) / uLevel.z + 0.5;
-  if (uCoarsest == 1 || all(lessThan(abs(uv - 0.5), vec2(0.5)))) return textureLod(uAbove, uv, 0.0).x;
-  return textureLod(uSun, lightVolumePlace(vec3(p, uWay.x), 0.0, uVolume), 0.0).x;
+const int kSamples = 2;  // of the first step, which is no longer than a cell
+
+// Texture coordinates in this level of a point; outside of it nothing is known.
+vec3 placeOf(vec3 q) {
+  return vec3((q.xy - uLevel.xy) / uLevel.z + 0.5, (q.z - uVolume.bottom) * uVolume.inverseHeight);
 }
+bool inside(vec3 place) { return all(lessThan(abs(place - 0.5), vec3(0.5))); }
 
 void main() {
-  vec2 p = uLevel.xy + (vUv - 0.5) * uLevel.z;
-  float rise = uWay.x - uSlice.x;
+  vec3 q = vec3(uLevel.xy + (vUv - 0.5) * uLevel.z, uSlice.x);
   // Far away the ground has turned away from the anchor's horizon.
-  float slant = max(uSunward.z + dot(uSunward.xy, p) * uVolume.shift.z, uSunward.w);
-  vec2 shift = uSunward.xy * (rise / slant);
+  float slant = max(uSunward.z + dot(uSunward.xy, q.xy) * uVolume.shift.z, uSunward.w);
+  vec3 way = normalize(vec3(uSunward.xy, slant));
   float tau = 0.0;
-  int steps = int(uWay.y);
-  for (int i = 0; i < steps; ++i) {
-    float share = (float(i) + 0.5) / uWay.y;
-    tau += density(vUv + shift * (share / uLevel.z), uSlice.z + share);
+  if (uWay.x == 0.0) {
+    for (int i = 0; i < kSamples; ++i) {
+      vec3 place = placeOf(q + way * (uWay.y * (float(i) + 0.5) / float(kSamples)));
+      if (inside(place)) tau += textureLod(uDensity, place, 0.0).y * uWay.y / float(kSamples);
+    }
+  } else {
+    vec3 place = placeOf(q + way * uWay.x);
+    tau = texelFetch(uSteps, ivec3(ivec2(gl_FragCoord.xy), int(uSlice.z)), 0).x;
+    if (inside(place)) tau += textureLod(uSteps, place, 0.0).x;
   }
-  tau *= length(vec3(shift, rise)) / uWay.y;
-  if (uTop == 0) tau += above(p + shift);
+  if (uLast == 1 && uCoarsest == 0) {
+    vec2 side = (mix(vec2(-0.5), vec2(0.5), vec2(greaterThan(way.xy, vec2(0.0)))) * uLevel.z + uLevel.xy - q.xy) /
+                mix(way.xy, vec2(1e-6), vec2(lessThan(abs(way.xy), vec2(1e-6))));
+    vec3 leave = q + way * min(abs(side.x), abs(side.y));
+    if (placeOf(leave).z < 1.0)
+      tau += textureLod(uSun, lightVolumePlace(lightVolumeLevel(leave, 0.0, uVolume), leave, uVolume), 0.0).x;
+  }
   oTau = vec4(min(tau, 60000.0), 0.0, 0.0, 1.0);
 }

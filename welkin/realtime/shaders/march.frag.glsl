@@ -12,9 +12,11 @@
 uniform sampler2D uTransmittance;
 uniform sampler3D uAerialInscatter;
 uniform sampler3D uAerialTransmittance;
+uniform sampler2D uSkyView;
 uniform sampler3D uSun;
 uniform sampler3D uDiffuse;
 uniform sampler2D uHostDepth;
+uniform sampler2D uBlueNoise;
 
 #ifdef LIGHT_VOLUME
 const int kLightVolume = 1;
@@ -22,8 +24,6 @@ const int kLightVolume = 1;
 const int kLightVolume = 0;
 #endif
 float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolume, uSun); }
-float skyCoarseness(vec3 q, Sky sky) { return lightVolumeCoarseness(q, sky.dither, uVolume); }
-vec2 skyDiffuse(vec3 q, Sky sky) { return textureLod(uDiffuse, lightVolumePlace(q, sky.dither, uVolume), 0.0).xy; }
 int skySheetCount(Sky sky) { return SHEET_COUNT; }
 SheetParams skySheet(int i, Sky sky) { return uSheet[i]; }
 
@@ -36,7 +36,19 @@ vec3 skyLightning(vec3 q, Sky sky) { return lightningLight(q, uLightning); }
 #endif
 
 #include "welkin/realtime/march_params.glsl"
+#include "welkin/realtime/span.glsl"
+#ifdef LIGHT_VOLUME
+#include "welkin/realtime/shaders/clearance.glsl"
+uniform highp sampler2DArray uBounds;
+float skyClearance(vec3 q, vec3 way, Sky sky) {
+  float clear = 1e9;
+  SKY_CLEARANCE
+  return clear;
+}
+#include "welkin/realtime/shaders/march_volume.glsl"
+#else
 #include "welkin/realtime/march.glsl"
+#endif
 #include "welkin/realtime/ray.glsl"
 
 layout(std140) uniform March { MarchParams uMarch; };
@@ -47,16 +59,11 @@ layout(location = 1) out vec4 oDepth;
 layout(location = 2) out vec4 oSamples;
 #endif
 
-// Interleaved gradient noise (Jimenez 2014), moved on by the golden ratio every round: a pixel is marched once in each.
-float gradientNoise(vec2 pixel, float round_) {
-  return fract(fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) + 0.61803399 * round_);
-}
-
-// White noise for the lighting: what is left after averaging looks like grain, where a regular pattern would look like
-// hatching.
-float whiteNoise(vec2 pixel, float round_) {
-  uint h = hashCell2(int(pixel.x), int(pixel.y), 9u);
-  return fract(unitFromHash(h) + 0.61803399 * round_);
+// Blue noise in [0, 1), moved on by the golden ratio every round: a pixel is marched once in each. `place` tells apart
+// what must not go together.
+float blueNoise(vec2 pixel, ivec2 place, float round_) {
+  int size = textureSize(uBlueNoise, 0).x;
+  return fract(texelFetch(uBlueNoise, (ivec2(pixel) + place) % size, 0).x + 0.61803399 * round_);
 }
 
 void main() {
@@ -69,13 +76,16 @@ void main() {
   vec3 jitter = vec3(0.5);
   float round_ = floor(uTiming.x / (uTiming.w * uTiming.w));
   if (uOptions.y > 0.5)
-    jitter = vec3(gradientNoise(pixel, round_), whiteNoise(pixel, round_), fract(0.5 + 0.61803399 * round_));
+    jitter = vec3(blueNoise(pixel, ivec2(0), round_), blueNoise(pixel, ivec2(23, 41), round_),
+                  fract(0.5 + 0.61803399 * round_));
   Sky sky;
-  sky.dither = whiteNoise(pixel + 4096.0, round_ * uOptions.y);
+  sky.dither = blueNoise(pixel, ivec2(47, 13), round_ * uOptions.y);
   vec4 colour;
   float depth, samples;
   renderRay(normalize(ray), limit, jitter, uMarch, uAir, uTransmittance, uAerialInscatter, uAerialTransmittance, sky,
             colour, depth, samples);
+  // The sky behind is as smooth as the rest of the history.
+  if (uOptions.z == 1.0) colour.rgb += colour.a * lookupSky(uSkyView, uAir, normalize(ray));
   oColour = vec4(min(colour.rgb * uWind.w, vec3(60000.0)), colour.a);
   oDepth = vec4(min(depth * 0.25, 60000.0));
 #ifdef COUNT_SAMPLES

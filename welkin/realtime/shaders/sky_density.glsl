@@ -36,7 +36,7 @@ uniform sampler2DArray uWeather;
 uniform sampler2DArray uExtra;
 
 vec3 skyExtinction(vec3 q, float footprint, bool full, Sky sky) {
-  vec3 sum = vec3(0.0, -1.0, 0.0);
+  vec3 sum = vec3(0.0, -1e4, 0.0);
   vec3 found;
   vec2 inGrid;
   SKY_LAYERS

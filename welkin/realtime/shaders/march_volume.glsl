@@ -1,0 +1,123 @@
+// The march with a light volume: what one ray sees of clouds and ground. Empty space is crossed by the weather's bounds
+// (clearance.glsl), the near part of the way toward the sun is sampled, the volume knows the rest. Loops inside the loop
+// bring the lanes of a wide machine together before the costly parts. As for march.glsl the includer supplies `Sky` and
+// its questions; besides them
+//   float skyClearance(vec3 q, vec3 way, Sky)
+// how far a ray can go from q without meeting cloud, `way` being how q changes with each of its metres.
+
+const int kMostSkips = 400;
+const float kFarthestSkip = 4000.0;  // m, over which the earth bends by a metre
+const int kFineSteps = 4;            // after the first hit
+const float kFineStep = 0.5;         // share of the usual step
+const float kOutside = 0.5;          // share of the depth outside the outlines that is taken for clear, within 4 steps
+
+MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter, MarchParams m, Sky sky) {
+  vec3 sun = m.sun.xyz, up = m.planet.up.xyz;
+  RaySpan span = raySpan(dir, limit, m);
+  float cosTheta = dot(dir, sun);
+  MiePhase droplets = MiePhase(m.droplets.x, m.droplets.y, m.droplets.z, m.droplets.w);
+  float first = m.useDroplets != 0 ? phaseMie(cosTheta, droplets)
+                                   : mix(phaseHenyeyGreenstein(cosTheta, m.forwardG),
+                                         phaseHenyeyGreenstein(cosTheta, m.backwardG), m.backwardWeight);
+  first *= m.octaveGain;
+  float broad = phaseHenyeyGreenstein(cosTheta, 0.6);
+  float inverseShell = 1.0 / (m.top - m.bottom);
+
+  float t = span.start;
+  float lastStep = clamp(t * m.stepScale, m.minStep, m.maxStep);
+  t += jitter.x * lastStep;
+  float fineLeft = 0.0, points = 0.0, samples = 0.0;
+  float transmittance = 1.0;
+  vec3 radiance = vec3(0.0);
+  vec2 depth = vec2(0.0);  // weighted sum, weights
+
+  for (int turn = 0; turn < m.maxTurns; ++turn) {
+    // To the next point in cloud.
+    vec3 q, found;
+    float spacing;
+    for (int search = 0; search < m.maxTurns; ++search) {
+      bool skipped = false;
+      for (int i = 0; i < kMostSkips; ++i) {
+        if (t >= span.end) break;
+        q = cloudSpace(dir * t, m.planet);
+        float slope = (m.planet.up.w * dot(dir, up) + t) / (m.planet.radius + q.z);
+        float clear = skyClearance(q, vec3(dir.xy, slope), sky);
+        if (clear <= 0.0) break;
+        t += min(clear, kFarthestSkip) + 0.5;
+        skipped = true;
+      }
+      spacing = clamp(t * m.stepScale, m.minStep, m.maxStep);
+      if (skipped) {
+        lastStep = jitter.x * spacing;
+        t += lastStep;
+      }
+      if (t >= span.end) break;
+      q = cloudSpace(dir * t, m.planet);
+      found = skyExtinction(q, max(t * m.footprintPerMetre, 0.5 * spacing), true, sky);
+      samples += 1.0;
+      bool fine = fineLeft > 0.5;
+      if (found.x > 0.0) {
+        if (fine || transmittance < 0.98 || m.refine == 0) break;
+        // Found from outside: once more from the last clear point, by smaller steps.
+        fineLeft = float(kFineSteps);
+        t -= (1.0 - kFineStep * jitter.x) * lastStep;
+      } else {
+        lastStep = fine ? kFineStep * spacing : found.y <= 0.0 ? clamp(-kOutside * found.y, 1.8 * spacing, 4.0 * spacing) : spacing;
+        fineLeft = max(fineLeft - 1.0, 0.0);
+        t += lastStep;
+      }
+    }
+    if (t >= span.end) break;
+
+    // Toward the sun: near steps as far as the volume's cells are wide, each with a place of its own for every point anew.
+    vec4 level = lightVolumeLevel(q, sky.dither, uVolume);
+    float way = 0.0, tau = 0.0;
+    float step_ = m.nearReach * lightVolumeCoarseness(level, uVolume);
+    for (int k = 0; k < m.lightSteps; ++k) {
+      float within = fract(jitter.y + 0.61803399 * float(k) + 0.38196601 * points);
+      vec3 at = cloudSpace(dir * t + sun * (way + step_ * within), m.planet);
+      tau += step_ * skyExtinction(at, max(t * m.footprintPerMetre, max(0.5 * spacing, 0.3 * step_)), true, sky).x;
+      samples += 1.0;
+      way += step_;
+      step_ *= m.lightRatio;
+    }
+    tau += sunDepthIn(level, cloudSpace(dir * t + sun * way, m.planet), uVolume, uSun);
+    // The light that comes toward the eye has set out deeper inside.
+    vec3 deeper = lightVolumePlace(level, cloudSpace(dir * (t + m.transportPath), m.planet), uVolume);
+    vec2 spread = textureLod(uDiffuse, deeper, 0.0).xy;
+
+    vec3 sunlight = mix(sunLow, sunHigh, clamp((q.z - m.bottom) * inverseShell, 0.0, 1.0));
+    float thick = tau * (1.0 + m.rainAbsorption * found.z / max(found.x, 1e-9));
+    float powder = mix(1.0, 1.0 - exp(-2.0 * tau), m.sun.w);
+    // What has been scattered forward goes on in nearly the same direction, the rest spreads.
+    float straight = exp(-thick), forward = exp(-kReduced * thick);
+    float turned = (spread.x + m.beam * forward) * 0.318309886;
+    vec3 source = sunlight * ((first * straight + broad * (forward - straight)) * powder + turned);
+    source += m.ambientSky.xyz * (m.ambientSky.w * spread.y);
+    source += m.ambientGround.xyz * (m.ambientGround.w * (1.0 - spread.y));
+#ifdef LIGHTNING
+    source += skyLightning(q, sky);
+#endif
+    float stride = spacing * (fineLeft > 0.5 ? kFineStep : 1.0);
+    float kept = exp(-found.x * stride);
+    float weight = transmittance * (1.0 - kept);
+    radiance += source * (weight * m.skyIrradiance.w);
+    depth += weight * vec2(t, 1.0);
+    transmittance *= kept;
+    points += 1.0;
+    t += stride;
+    lastStep = stride;
+    fineLeft = max(fineLeft - 1.0, 0.0);
+    if (transmittance < m.earlyExit) break;
+  }
+
+  MarchResult r;
+  r.radiance = radiance;
+  r.transmittance = transmittance < m.earlyExit ? 0.0 : transmittance;
+  r.depth = depth.y > 1e-4 ? depth.x / depth.y : m.maxDistance;
+  // What has been scattered forward arrives nearly from where it came.
+  r.ground = span.drawGround ? exp(-kReduced * skySunDepth(cloudSpace(dir * span.ground, m.planet), sky)) : -1.0;
+  r.groundDepth = span.ground;
+  r.samples = samples;
+  return r;
+}
