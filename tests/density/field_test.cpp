@@ -160,6 +160,29 @@ TEST(DensityField, ColumnsAreVerticalIntegrals) {
   EXPECT_THROW((void)clouds.opticalDepth(places[0], 500.0, 600.0, 0.0), Error);
 }
 
+// A slab of even extinction, 600 m deep, seen from below, inside and above.
+TEST(DensityField, RaysThroughASlabAreClosedForms) {
+  VoxelGrid voxels({32, 32, 4}, {-16000.0, -16000.0, 1000.0}, {1000.0, 1000.0, 150.0});
+  for (int z = 0; z < 4; ++z)
+    for (int y = 0; y < 32; ++y)
+      for (int x = 0; x < 32; ++x) voxels.set({x, y, z}, 0.01f);
+  const std::vector<PlacedGrid> grids{
+      placed({.values = GridValues::extinction}, std::make_shared<const VoxelGrid>(std::move(voxels)))};
+  const DensityField clouds({.grids = grids});
+  const double full = clouds.opticalDepth({0.0, 0.0}, 0.0, 3000.0, 1.0);  // of the zeros round it some counts too
+  EXPECT_NEAR(full, 6.0, 1.6);
+  for (const double sine : {1.0, 0.7, 0.4}) {
+    const glm::dvec3 up(std::sqrt(1.0 - sine * sine), 0.0, sine);
+    EXPECT_NEAR(clouds.opticalDepthToward({0.0, 0.0, 0.0}, up, 2.0), full / sine, 0.01 * full / sine) << sine;
+    EXPECT_NEAR(clouds.opticalDepthToward({0.0, 0.0, 1300.0}, up, 2.0), 0.5 * full / sine, 0.01 * full / sine);
+    EXPECT_NEAR(clouds.opticalDepthToward({0.0, 0.0, 3000.0}, -up, 2.0), full / sine, 0.01 * full / sine);
+    EXPECT_EQ(clouds.opticalDepthToward({0.0, 0.0, 3000.0}, up), 0.0);
+    EXPECT_EQ(clouds.opticalDepthToward({0.0, 0.0, 500.0}, -up), 0.0) << "the ground is in the way";
+  }
+  EXPECT_EQ(DensityField({}).opticalDepthToward({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}), 0.0);
+  EXPECT_THROW((void)clouds.opticalDepthToward({0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 0.0), Error);
+}
+
 TEST(DensityField, SheetsAreTheLawEvaluatedByHand) {
   std::vector<Sheet> sheets(2);
   sheets[1].kind = SheetKind::altocumulus;

@@ -254,6 +254,7 @@ TEST_P(HostState, IsTheSameAfterEveryCall) {
   gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
   frame.framebuffer = static_cast<unsigned>(name);
   frame.width = frame.height = 8;
+  frame.background = Background::host;
 
   GLuint sampler = 0;
   gl.GenSamplers(1, &sampler);
@@ -296,6 +297,25 @@ TEST_P(HostState, IsTheSameAfterEveryCall) {
   EXPECT_EQ(snapshot(gl), before) << "after render";
   stage.sky->setScene(other);
   EXPECT_EQ(snapshot(gl), before) << "after setScene";
+  stage.sky->prepare(view, frame);
+  EXPECT_EQ(snapshot(gl), before) << "after prepare";
+
+  // Binding changes the units and the block that it is given and nothing else.
+  const gl::Program lit(gl, "lit", "",
+                        Renderer::hostShader() +
+                            "out vec4 o;\nvoid main() { o = welkinThrough(vec4(1.0), vec3(gl_FragCoord.xy, 9.0)); }\n",
+                        [](std::string_view) { return std::string_view(); });
+  stage.sky->bindHost(view, lit.id(), {.firstUnit = 3, .uniformBlock = 5});
+  for (GLuint unit = 3; unit < 10; ++unit) {
+    gl.ActiveTexture(GL_TEXTURE0 + unit);
+    gl.BindTexture(GL_TEXTURE_2D, plane.id());
+    gl.BindTexture(GL_TEXTURE_3D, volume.id());
+    gl.BindSampler(unit, sampler);
+  }
+  gl.ActiveTexture(GL_TEXTURE0 + 6);
+  buffer.bind(5);
+  gl.BindBuffer(GL_UNIFORM_BUFFER, 0);
+  EXPECT_EQ(snapshot(gl), before) << "after bindHost";
   stage.sky->countSamples(true);
   stage.sky->render(view, frame);
   EXPECT_EQ(snapshot(gl), before) << "after counting";

@@ -31,6 +31,7 @@ constexpr const char* kFiles[] = {"welkin/base/law.glsl",
                                   "welkin/atmosphere/models.glsl",
                                   "welkin/realtime/light_volume.glsl",
                                   "welkin/realtime/march_params.glsl",
+                                  "welkin/realtime/host_params.glsl",
                                   "welkin/realtime/shaders/frame.glsl"};
 
 using Offsets = std::map<std::string, std::size_t>;
@@ -129,6 +130,7 @@ TEST_P(UniformBlocks, LieAsInCpp) {
       {"PreethamParams", sizeof(law::PreethamParams), "", "", 0},
       {"GradientParams", sizeof(law::GradientParams), "", "", 0},
       {"MarchParams", sizeof(law::MarchParams), "bottom", "maxTurns", offsetof(law::MarchParams, maxTurns)},
+      {"HostParams", sizeof(law::HostParams), "bottom", "yUp", offsetof(law::HostParams, yUp)},
       {"WeatherParams", sizeof(law::WeatherParams), "coverage", "seed", offsetof(law::WeatherParams, seed)}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.type);

@@ -165,6 +165,47 @@ double DensityField::opticalDepth(const glm::dvec2& place, double low, double hi
   return sum * steps.size;
 }
 
+double DensityField::opticalDepthToward(const glm::dvec3& point, const glm::dvec3& direction, double step) const {
+  constexpr double kFarthest = 200000.0;  // m
+  double bottom = 1e9, top = -1e9;
+  const auto include = [&](double low, double high) {
+    bottom = std::min(bottom, low);
+    top = std::max(top, high);
+  };
+  for (const Layer& layer : layers_) include(shellOf(layer).bottom, shellOf(layer).top);
+  for (const PlacedGrid& grid : grids_) include(boundsOf(grid).low.z, boundsOf(grid).high.z);
+  // From the planet's centre. The ray crosses altitude h at -b -+ sqrt(b^2 + (R + h)^2 - |start|^2).
+  const double radius = kPlanetRadius + point.z;
+  const glm::dvec3 start(point.x, point.y,
+                         std::sqrt(std::max(radius * radius - point.x * point.x - point.y * point.y, 0.0)));
+  const double b = glm::dot(start, direction);
+  const auto root = [&](double h) { return b * b + (kPlanetRadius + h - radius) * (kPlanetRadius + h + radius); };
+  if (top < bottom || root(top) <= 0.0) return 0.0;
+  double near = std::max(-b - std::sqrt(root(top)), 0.0), far = -b + std::sqrt(root(top));
+  if (point.z < bottom) near = std::max(-b + std::sqrt(root(bottom)), 0.0);
+  if (b < 0.0 && root(0.0) > 0.0) far = std::min(far, -b - std::sqrt(root(0.0)));
+  far = std::min(far, kFarthest);
+  const Steps steps = stepsOf(near, far, step);
+  std::vector<glm::dvec3> points(steps.count);
+  for (std::size_t k = 0; k < steps.count; ++k) {
+    const glm::dvec3 p = start + direction * (near + (static_cast<double>(k) + 0.5) * steps.size);
+    points[k] = {p.x, p.y, glm::length(p) - kPlanetRadius};
+  }
+  double sum = 0.0;
+  for (const float sigma : extinction(points)) sum += sigma;
+  return sum * steps.size;
+}
+
+glm::vec4 DensityField::weather(std::size_t index, const glm::dvec3& point) const {
+  const Layer& layer = layers_.at(index);
+  const law::LayerParams c = layerParams(layer, glm::dvec3(point.x, point.y, 0.0), drift_);
+  const law::WeatherParams w = weatherParams(layer, glm::dvec2(point), drift_, seed_);
+  const glm::vec3 q = law::unsheared(glm::vec3(0.0f, 0.0f, point.z), c);
+  const TextureView map = authoringMap(layer, &maps_[index]);
+  if (layer.cloud.shape == LayerShape::nubis) return law::nubisWeather(glm::vec2(q), w, map);
+  return law::profileWeather(law::profileColumn(q, c, textures_.profileWarp.view()), w, map);
+}
+
 std::vector<CloudColumn> DensityField::columns(std::size_t index, std::span<const glm::dvec2> places,
                                                double step) const {
   const Layer& layer = layers_.at(index);

@@ -51,9 +51,11 @@ class DensityField {
 
   // Goes to another time; not while others ask.
   void setDrift(const Drift& drift) { drift_ = drift; }
+  const Drift& drift() const { return drift_; }
 
   std::size_t layerCount() const { return layers_.size(); }
   std::size_t sheetCount() const { return sheets_.size(); }
+  const std::vector<Layer>& layers() const { return layers_; }
 
   const std::vector<PlacedGrid>& grids() const { return grids_; }
 
@@ -68,6 +70,15 @@ class DensityField {
   // Vertical optical depth between the altitudes `low` and `high` over a place, layers and grids, by the midpoint rule
   // with steps of at most `step` m.
   double opticalDepth(const glm::dvec2& place, double low, double high, double step = 10.0) const;
+
+  // The same along the ray from a point toward a unit vector (east, north, up at the world's origin), out of the clouds
+  // or into the ground, with steps of at most `step` m; at most 200 km far.
+  double opticalDepthToward(const glm::dvec3& point, const glm::dvec3& direction, double step = 20.0) const;
+
+  // The weather of a layer in the column of a point, leaned and warped as its cloud is: for the shape "profile" (height
+  // of the top above the base in m, shift of the base in m, anvil, precipitation), for "nubis" (coverage, type,
+  // precipitation, shift of the base in m).
+  glm::vec4 weather(std::size_t layer, const glm::dvec3& point) const;
 
   // One layer over many places: the integral of its extinction over its whole shell, midpoints of steps of at most
   // `step` m. Its base and top are where the extinction exceeds a twentieth of the layer's own.

@@ -135,6 +135,7 @@ class UniformBuffer {
   }
   void upload(const void* data, std::size_t bytes);
   void bind(GLuint binding) const { gl_->BindBufferBase(GL_UNIFORM_BUFFER, binding, id_); }
+  explicit operator bool() const { return id_ != 0; }
 
  private:
   void swap(UniformBuffer& o) noexcept {

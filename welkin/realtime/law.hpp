@@ -1,5 +1,6 @@
 #pragma once
 // The march's parameters in C++, laid out as the shaders' uniform blocks.
+#include "welkin/atmosphere/law.hpp"
 #include "welkin/density/law.hpp"
 
 namespace welkin::law {
@@ -7,6 +8,7 @@ namespace welkin::law {
 #include "welkin/realtime/grid.glsl"
 #include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/march_params.glsl"
+#include "welkin/realtime/host_params.glsl"
 #include "welkin/realtime/lightning.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

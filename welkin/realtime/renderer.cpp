@@ -15,6 +15,7 @@
 #include "welkin/noise/blue_noise.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/grid_atlas.hpp"
+#include "welkin/realtime/host.hpp"
 #include "welkin/realtime/light_volume.hpp"
 #include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/noise_textures.hpp"
@@ -60,6 +61,12 @@ constexpr double kFetchesPerRay = 8.0;
 std::string fileText(const char* path) { return std::string(shaderSource(path)); }
 
 glm::dvec3 eastNorthUp(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, -p.z, p.y); }
+glm::dvec3 hostAxes(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, p.z, -p.y); }
+
+// The eye's place among the clouds.
+glm::dvec2 placeOf(const glm::dvec3& position, const Frame& frame) { return glm::dvec2(position) + frame.origin; }
+
+TextureName nameOf(const gl::Texture& t) { return {t.id(), t.width(), t.height(), t.depth()}; }
 
 }  // namespace
 
@@ -75,6 +82,9 @@ struct View::State {
   glm::dvec3 lastPosition{0.0};
   double lastTime = 0.0;
   float exposure = 1.0f;  // factor on what the history holds
+  law::HostParams host{};
+  UpAxis up = UpAxis::z;
+  gl::UniformBuffer hostBuffer;
 };
 
 View::View() : state_(std::make_unique<State>()) {}
@@ -113,6 +123,8 @@ struct Renderer::State {
   bool counting = false, customised = false;
   std::shared_ptr<const SkyModel> userSky;
   double samples = 0.0, mostSamples = 0.0, rays = 0.0;
+  law::HostParams host{};                 // of the last lightPass
+  const View::State* hostView = nullptr;  // that it was for
 
   explicit State(const gl::Loader& loader)
       : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
@@ -175,13 +187,16 @@ struct Renderer::State {
 
   // The passes, in order.
   void skyPass(const glm::dvec3& position);
-  void weatherPass(const glm::dvec3& position, const Drift& drift);
+  void weatherPass(const glm::dvec2& place, const Drift& drift);
   void lightPass(const Frame& frame, const glm::dvec3& position, const Drift& drift, const FrameParams& params);
   void marchPass(View::State& view, const Frame& frame);
   void resolvePass(View::State& view, const gl::Program& program);
-  void lightningOf(const glm::dvec3& position, double time);
+  void lightningOf(const glm::dvec2& place, double time);
   void compositePass(const View::State& view, const Frame& frame, const FrameParams& params);
   const gl::Program& compositeProgram(const Frame& frame, const FrameParams& params);
+  void checkFrame(const Frame& frame) const;
+  void keepForHost(View::State& view, const Frame& frame, const FrameParams& params);
+  void checkHostView(const View::State& view) const;
   float exposure() const;
 };
 
@@ -272,6 +287,7 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.userSky = textures.sky;
   s.scene = scene;
   s.hasScene = true;
+  s.hostView = nullptr;
   s.makeLight();
   ++s.sceneNumber;
   s.makeMarch();
@@ -355,25 +371,26 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
   sky.update(scene.atmosphere, heavens.lights, std::max(altitude, 0.0), scene.ground.albedo, userSky.get());
 }
 
-void Renderer::State::weatherPass(const glm::dvec3& position, const Drift& drift) {
+void Renderer::State::weatherPass(const glm::dvec2& place, const Drift& drift) {
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
-    weather->update(static_cast<int>(i), scene.layers[i], glm::dvec2(position), drift, scene.seed, weatherProgram,
-                    framebuffer, weatherBuffer, maps[i] ? maps[i] : white);
+    weather->update(static_cast<int>(i), scene.layers[i], place, drift, scene.seed, weatherProgram, framebuffer,
+                    weatherBuffer, maps[i] ? maps[i] : white);
 }
 
 // What the passes that march need to know, and the volume of light.
 void Renderer::State::lightPass(const Frame& frame, const glm::dvec3& position, const Drift& drift,
                                 const FrameParams& params) {
+  const glm::dvec2 place = placeOf(position, frame);
   LayersBlock block{};
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-    block.layers[i] = layerParams(scene.layers[i], position, drift);
-    block.clips[i] = weather->params(static_cast<int>(i), glm::dvec2(position), drift);
+    block.layers[i] = layerParams(scene.layers[i], glm::dvec3(place, 0.0), drift);
+    block.clips[i] = weather->params(static_cast<int>(i), place, drift);
   }
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
-    block.sheets[i] = sheetParams(scene.sheets[i], glm::dvec2(position), drift.time, scene.seed);
+    block.sheets[i] = sheetParams(scene.sheets[i], place, drift.time, scene.seed);
   std::vector<Shell> shells;
   for (std::size_t i = 0; i < grids.count(); ++i) {
-    block.grids[i] = grids.params(i, glm::dvec2(position));
+    block.grids[i] = grids.params(i, place);
     shells.push_back(grids.shell(i));
   }
   block.air = sky.params().air;
@@ -381,7 +398,8 @@ void Renderer::State::lightPass(const Frame& frame, const glm::dvec3& position, 
                                    frame.background == Background::skyAndGround, shells, gridExtinction);
   m.skyBehind = frame.background == Background::host ? 0.0f : 1.0f;
   marchBuffer.upload(&m, sizeof m);
-  if (light) block.volume = light->place(glm::dvec2(position), drift, {m.bottom, m.top}, sunDirection, cloudsNumber);
+  if (light) block.volume = light->place(place, drift, {m.bottom, m.top}, sunDirection, cloudsNumber);
+  host = hostParams(block.air, light ? &block.volume : nullptr, m, sky.light());
   layersBuffer.upload(&block, sizeof block);
   if (!light || !light->stale()) return;
   gl.UseProgram(lightProgram.id());
@@ -467,11 +485,11 @@ void Renderer::State::resolvePass(View::State& view, const gl::Program& program)
 }
 
 // The flash of this moment, for a march that was compiled for it.
-void Renderer::State::lightningOf(const glm::dvec3& position, double time) {
+void Renderer::State::lightningOf(const glm::dvec2& place, double time) {
   if (scene.lightning.rate <= 0.0f) return;
   law::LightningParams l{};
-  if (const std::optional<Flash> flash = flashAt(scene, glm::dvec2(position), time))
-    l.flash = glm::vec4(glm::vec3(glm::dvec2(flash->position) - glm::dvec2(position), flash->position.z),
+  if (const std::optional<Flash> flash = flashAt(scene, place, time))
+    l.flash = glm::vec4(glm::vec3(glm::dvec2(flash->position) - place, flash->position.z),
                         static_cast<float>(flash->intensity));
   l.colour = glm::vec4(0.86f, 1.0f, 1.41f, 0.0f);  // a plasma of 10,000 K and more, as the moon sees it: violet-white
   lightningBuffer.upload(&l, sizeof l);
@@ -525,20 +543,102 @@ void Renderer::State::compositePass(const View::State& view, const Frame& frame,
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::render(View& view, const Frame& frame) {
-  State& s = *state_;
-  View::State& v = *view.state_;
-  if (!s.hasScene) throw Error(ErrorKind::failed, "", "render() was called before setScene()");
+void Renderer::State::checkFrame(const Frame& frame) const {
+  if (!hasScene) throw Error(ErrorKind::failed, "", "a frame was asked for before setScene()");
   if (frame.width < 1 || frame.height < 1 || frame.width > 16384 || frame.height > 16384)
     throw Error(
         ErrorKind::badInput, "",
         fmt::format("a picture of {}x{} pixels cannot be drawn; edges go from 1 to 16384", frame.width, frame.height));
   if (frame.mapping == Projection::equirectangular && frame.depthTexture != 0)
     throw Error(ErrorKind::badInput, "", "an equirectangular picture takes no depth of the host");
+}
+
+void Renderer::State::keepForHost(View::State& view, const Frame& frame, const FrameParams& params) {
+  setHostView(host, frame, params);
+  view.host = host;
+  view.up = frame.up;
+  if (!view.hostBuffer) view.hostBuffer = gl::UniformBuffer(gl);
+  view.hostBuffer.upload(&view.host, sizeof view.host);
+  hostView = &view;
+}
+
+void Renderer::State::checkHostView(const View::State& view) const {
+  if (hostView != &view)
+    throw Error(
+        ErrorKind::failed, "",
+        "sky and light are not those of this view: call prepare() or render() for it first, and draw what needs "
+        "them before another view's turn comes or the scene changes");
+}
+
+void Renderer::prepare(View& view, const Frame& frame) {
+  State& s = *state_;
+  View::State& v = *view.state_;
+  s.checkFrame(frame);
+  const gl::StateGuard guard(s.gl);
+  s.gl.BindVertexArray(s.triangle.id());
+  const glm::dvec3 position = eastNorthUp(frame.position, frame.up);
+  const glm::dvec2 place = placeOf(position, frame);
+  const Drift drift{s.scene.wind.speed, s.scene.wind.from, frame.time};
+  const FrameParams params =
+      frameParams(frame, std::max(v.width, 1), std::max(v.height, 1), std::max(v.interleave, 1), s.scene.quality, 0);
+  s.skyPass(position);
+  s.weatherPass(place, drift);
+  s.lightPass(frame, position, drift, params);
+  s.keepForHost(v, frame, params);
+  s.gl.check("preparing a frame");
+}
+
+const std::string& Renderer::hostShader() { return hostShaderText(); }
+
+void Renderer::bindHost(const View& view, unsigned program, const HostBindings& bindings) {
+  const State& s = *state_;
+  const View::State& v = *view.state_;
+  s.checkHostView(v);
+  const bool onlyClouds = !v.last || (v.last->options.z != 1.0f && v.last->camera.forward.w < 0.5f);
+  if (!onlyClouds && s.gl.GetUniformLocation(program, "uWelkinClouds") >= 0)
+    throw Error(ErrorKind::badInput, "",
+                "welkinFront() and welkinThrough() need a perspective frame with depthTexture or Background::host: "
+                "without them the sky is part of what the view knows of its clouds");
+  const HostSampler samplers[] = {{"uWelkinClouds", GL_TEXTURE_2D, &v.history[static_cast<std::size_t>(v.current)]},
+                                  {"uWelkinCloudDepth", GL_TEXTURE_2D, &v.marchedDepth},
+                                  {"uWelkinTransmittance", GL_TEXTURE_2D, &s.sky.transmittance()},
+                                  {"uWelkinInscatter", GL_TEXTURE_3D, &s.sky.aerialInscatter()},
+                                  {"uWelkinThrough", GL_TEXTURE_3D, &s.sky.aerialTransmittance()},
+                                  {"uWelkinSunDepth", GL_TEXTURE_3D, s.light ? &s.light->sun() : nullptr},
+                                  {"uWelkinDiffuse", GL_TEXTURE_3D, s.light ? &s.light->diffuse() : nullptr}};
+  realtime::bindHost(s.gl, program, bindings.firstUnit, bindings.uniformBlock, v.hostBuffer, samplers);
+}
+
+Outputs Renderer::outputs(const View& view) const {
+  const State& s = *state_;
+  const View::State& v = *view.state_;
+  s.checkHostView(v);
+  Outputs o;
+  o.clouds = nameOf(v.history[static_cast<std::size_t>(v.current)]);
+  o.cloudsFactor = 1.0f / v.exposure;
+  o.cloudDepth = nameOf(v.marchedDepth);
+  o.cloudDepthFactor = v.host.depthUnit;
+  if (v.last) {
+    o.cloudsFactor = 1.0f / v.last->wind.w;
+    o.cloudDepthOffset = glm::vec2(v.last->offset);
+  }
+  if (s.light) o.sunDepth = nameOf(s.light->sun());
+  o.toSun = hostAxes(glm::dvec3(s.sunDirection), v.up);
+  o.sunIrradiance = s.sky.light().sunIrradiance;
+  o.skyIrradiance = s.sky.light().skyIrradiance;
+  o.skyUnderClouds = glm::vec3(v.host.shadedSky);
+  return o;
+}
+
+void Renderer::render(View& view, const Frame& frame) {
+  State& s = *state_;
+  View::State& v = *view.state_;
+  s.checkFrame(frame);
   const gl::StateGuard guard(s.gl);
   s.gl.BindVertexArray(s.triangle.id());
   s.makeTargets(v, frame);
   const glm::dvec3 position = eastNorthUp(frame.position, frame.up);
+  const glm::dvec2 place = placeOf(position, frame);
   const Drift drift{s.scene.wind.speed, s.scene.wind.from, frame.time};
 
   if (v.exposure != s.exposure()) {
@@ -549,24 +649,24 @@ void Renderer::render(View& view, const Frame& frame) {
   params.wind.w *= v.exposure;
   params.options.x = 1.0f / v.exposure;
   if (v.last && v.last->options.z != params.options.z) view.reset();
-  const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != position || v.lastTime != frame.time ||
-                     v.scene != s.sceneNumber;
+  const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != glm::dvec3(place, position.z) ||
+                     v.lastTime != frame.time || v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
   const int turns = v.interleave * v.interleave, round = v.still / turns;
   const bool begun = v.still == v.frames && v.frames < turns;
   const History history = v.frames == 0 || !s.scene.quality.reprojection ? History::none
                           : begun                                        ? History::begun
                                                                          : History::picture;
-  setHistory(params, v.last ? &*v.last : nullptr, position - v.lastPosition,
+  setHistory(params, v.last ? &*v.last : nullptr, glm::dvec3(place, position.z) - v.lastPosition,
              driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), history,
              1.0f / static_cast<float>(round + 1));
   s.frameBuffer.upload(&params, sizeof params);
 
   s.timers.begin();
-  s.lightningOf(position, frame.time);
+  s.lightningOf(place, frame.time);
   s.skyPass(position);
   s.timers.mark("sky tables");
-  s.weatherPass(position, drift);
+  s.weatherPass(place, drift);
   s.timers.mark("weather");
   s.lightPass(frame, position, drift, params);
   s.timers.mark("light volume");
@@ -580,10 +680,11 @@ void Renderer::render(View& view, const Frame& frame) {
   s.gl.check("drawing a frame");
 
   v.last = params;
-  v.lastPosition = position;
+  v.lastPosition = glm::dvec3(place, position.z);
   v.lastTime = frame.time;
   v.scene = s.sceneNumber;
   ++v.frames;
+  s.keepForHost(v, frame, params);
 }
 
 void Renderer::countSamples(bool on) {

@@ -36,7 +36,10 @@ struct Frame {
   // part that the target shows: centre x and y, width and height, in shares of the whole; y is 0 at the nadir.
   Projection mapping = Projection::perspective;
   glm::dvec4 panorama{0.5, 0.5, 1.0, 1.0};
-  glm::dvec3 position{0.0};  // of the eye in the host's world
+  glm::dvec3 position{0.0};  // of the eye in the host's world, whose origin touches the ground
+  // Where that origin stands among the clouds, east and north. A host that moves its origin along with its camera adds
+  // here what it takes from its positions: the sky stays as it is, and the ground below the origin level.
+  glm::dvec2 origin{0.0};
   UpAxis up = UpAxis::z;
   Background background = Background::skyAndGround;
   unsigned depthTexture = 0;  // the host's scene depth, as large as the target; 0: none
@@ -89,6 +92,43 @@ struct CustomTextures {
   std::shared_ptr<const SkyModel> sky;  // paints the sky in place of atmosphere.model
 };
 
+// A texture of OpenGL that belongs to the renderer or a view: read it, do not write it, and forget its name at the next
+// call of the renderer. A name of 0: there is none.
+struct TextureName {
+  unsigned name = 0;
+  int width = 0, height = 0, depth = 0;  // depth 0: GL_TEXTURE_2D, else GL_TEXTURE_3D
+};
+
+// What a view's last frame leaves to its host beside the picture. The include (Renderer::hostShader) reads all of it;
+// the names are for passes that the host has already.
+struct Outputs {
+  // RGBA16F, linear, at the history's resolution: light that clouds (and air before them) send, times `cloudsFactor` in
+  // kcd/m^2, and in alpha the share of light from behind that comes through. Of a frame that has neither depthTexture
+  // nor Background::host it holds the sky besides.
+  TextureName clouds;
+  float cloudsFactor = 1.0f;
+  // R16F, nearest, one texel for each block of the history: mean distance of the clouds from the eye, weighted by
+  // opacity, times `cloudDepthFactor` in m; where it exceeds 200 km there is no cloud. Each frame marches another pixel
+  // of the block, `cloudDepthOffset` of the history's pixels from the block's lower left one.
+  TextureName cloudDepth;
+  float cloudDepthFactor = 1.0f;
+  glm::vec2 cloudDepthOffset{0.0f};
+  // R16F, 3D: optical depth of the clouds toward the sun, in nested squares round the eye: the clouds' shadow map. None
+  // without quality.lightVolume and with lighting.model nubis.
+  TextureName sunDepth;
+  // Light for the host's own lamps, linear Rec.709 in klx; by night the moon is the sun. At the eye and without clouds:
+  glm::dvec3 toSun{0.0, 0.0, 1.0};  // unit vector in the host's axes
+  glm::vec3 sunIrradiance{0.0f};    // on a plane that faces the sun
+  glm::vec3 skyIrradiance{0.0f};    // on level ground, without the sun
+  glm::vec3 skyUnderClouds{0.0f};   // the same under the clouds, of the layers' mean cover and depth
+};
+
+// Where bindHost puts what the include reads; the numbers are the host's to choose.
+struct HostBindings {
+  unsigned firstUnit = 0;     // of texture units, up to 7 of them
+  unsigned uniformBlock = 0;  // binding of the uniform block
+};
+
 class Renderer {
  public:
   // Works in the context that is current on this thread; every later call must find it current. Throws Error (noOpenGl)
@@ -103,6 +143,27 @@ class Renderer {
 
   // Draws. Leaves the host's OpenGL state as it was, but for the contents of the target.
   void render(View& view, const Frame& frame);
+
+  // Makes what render() needs to know of sky, weather and light round the eye, so that the host can light its opaque
+  // surfaces before the clouds are drawn over them. `frame` is that of the render() to come; depth and target are not
+  // used. Quick when little has changed. Leaves the host's OpenGL state as it was.
+  void prepare(View& view, const Frame& frame);
+
+  // GLSL for the host's own shaders: light and shade of clouds on what it draws, air and clouds before it. Goes after
+  // "#version 330" (or later) or "#version 300 es" into a vertex or fragment shader; declares nothing but names that
+  // begin with "welkin", "Welkin" and "uWelkin". docs/host.md explains its functions.
+  static const std::string& hostShader();
+
+  // Gives a linked program of the host what the include reads, for the view that has been prepared or rendered last.
+  // Changes the uniform block's binding, the textures of its type on as many units as the program uses samplers, and
+  // unbinds the sampler objects there; all other state stays. Throws Error (badInput) when the program does not use the
+  // include, or asks for the clouds of a frame whose sky is in the same texture (see Outputs::clouds), (failed) when
+  // another view, or none, was prepared last.
+  void bindHost(const View& view, unsigned program, const HostBindings& bindings);
+
+  // What the view's last frame leaves; after prepare() alone the textures are those of the frame before. Throws Error
+  // (failed) when another view, or none, was prepared last.
+  Outputs outputs(const View& view) const;
 
   // Counts density samples from now on (a slower shader).
   void countSamples(bool on);

@@ -1,0 +1,166 @@
+// For the shaders of a host: how the sky lights what the host draws, and what air and clouds do on the way to the eye.
+// Renderer::hostShader() hands this out with all that it includes, names prefixed, so that only what begins with
+// "welkin", "Welkin" and "uWelkin" meets the host's own names.
+#ifdef GL_ES
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler3D;
+#endif
+#include "welkin/base/law.glsl"
+#include "welkin/light/phase.glsl"
+#include "welkin/light/transmittance.glsl"
+#include "welkin/atmosphere/atmosphere.glsl"
+#include "welkin/atmosphere/scattering.glsl"
+#include "welkin/atmosphere/models.glsl"
+#include "welkin/atmosphere/sky.glsl"
+#include "welkin/noise/hash.glsl"
+#include "welkin/density/space.glsl"
+#include "welkin/density/weather.glsl"
+#include "welkin/realtime/light_volume.glsl"
+#include "welkin/realtime/host_params.glsl"
+
+layout(std140) uniform WelkinHost { HostParams uWelkin; };
+uniform sampler2D uWelkinClouds;
+uniform sampler2D uWelkinCloudDepth;
+uniform sampler2D uWelkinTransmittance;
+uniform sampler3D uWelkinInscatter;
+uniform sampler3D uWelkinThrough;
+uniform sampler3D uWelkinSunDepth;
+uniform sampler3D uWelkinDiffuse;
+
+// Light that falls on a point.
+struct WelkinLight {
+  vec3 toSun;  // unit vector in the host's axes, by night toward the moon
+  vec3 sun;    // on a plane that faces it, klx; air and clouds taken off
+  vec3 sky;    // on a level plane, from sky and clouds, klx
+};
+
+// What lies between the eye and a point.
+struct WelkinFront {
+  vec3 light;    // that it sends to the eye, in the target's units
+  vec3 through;  // share of the point's own light that it lets through
+  float clouds;  // the clouds' part of that share
+};
+
+vec3 eastNorthUpOf(vec3 p) { return uWelkin.yUp > 0.5 ? vec3(p.x, -p.z, p.y) : p; }
+vec3 hostAxesOf(vec3 p) { return uWelkin.yUp > 0.5 ? vec3(p.x, p.z, -p.y) : p; }
+
+// Share of the sun's light that the clouds leave to a point of cloud space. What they scatter forward counts as sunlight,
+// since it arrives from nearly where the sun stands.
+float sunShareAt(vec3 q) {
+  if (uWelkin.hasVolume < 0.5 || q.z >= uWelkin.top) return 1.0;
+  return exp(-kReduced * lookupSunDepth(q, 0.0, uWelkin.volume, uWelkinSunDepth));
+}
+
+vec3 sunAt(float altitude, vec3 d) {
+  vec3 normal = normalize(uWelkin.planet.up.xyz * uWelkin.planet.up.w + d);
+  return uWelkin.air.sunIrradiance.xyz *
+         lookupTransmittanceToSun(uWelkinTransmittance, uWelkin.air, altitude,
+                                  dot(uWelkin.air.sunDirection.xyz, normal));
+}
+
+// Light without direction under the clouds over a place, klx.
+vec3 skyBelow(vec2 place, vec3 sunAbove) {
+  if (uWelkin.hasVolume < 0.5) return uWelkin.shadedSky.xyz;
+  vec2 below = lookupBelow(place, uWelkin.volume, uWelkinDiffuse);
+  return sunAbove * below.x + uWelkin.ambientSky.xyz * (3.14159265 * below.y);
+}
+
+// The air's own light toward the eye, part of which the clouds shade (as in the march).
+vec3 shadedInscatter(vec3 dir, float distance_, vec3 inscatter, vec3 through) {
+  if (uWelkin.hasVolume < 0.5) {
+    bool above = uWelkin.planet.altitude >= uWelkin.bottom;
+    return mix(inscatter, uWelkin.shadedAir.xyz * (1.0 - through), above ? 0.0 : uWelkin.shadedAir.w);
+  }
+  vec3 sunAbove = sunAt(uWelkin.bottom, vec3(0.0));
+  float loss = -log(clamp(through.y, 1e-4, 1.0)) / max(distance_, 1.0);
+  float end = 1.0 - exp(-loss * distance_);
+  float dark = 0.0;
+  vec3 light = vec3(0.0);
+  for (int i = 0; i < 4; ++i) {  // where equal shares of the light come from
+    float t = -log(max(1.0 - end * (0.25 * float(i) + 0.125), 1e-6)) / max(loss, 1e-7);
+    vec3 q = cloudSpace(dir * min(t, distance_), uWelkin.planet);
+    dark += 0.25 * (1.0 - sunShareAt(q));
+    light += 0.25 * skyBelow(q.xy, sunAbove);
+  }
+  return mix(inscatter, light * uWelkin.shadedAir.xyz * (1.0 - through), dark);
+}
+
+// Mean distance of the clouds at a point of the picture, m. The texels stand where this frame has marched; those that
+// hold no cloud do not count.
+float cloudDistance(vec2 uv) {
+  vec2 at = uv * uWelkin.depthPlace.xy + uWelkin.depthPlace.zw;
+  ivec2 last = textureSize(uWelkinCloudDepth, 0) - 1;
+  vec2 f = fract(at);
+  float sum = 0.0, weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 step_ = ivec2(i & 1, i >> 1);
+    float depth = texelFetch(uWelkinCloudDepth, clamp(ivec2(floor(at)) + step_, ivec2(0), last), 0).x;
+    vec2 near = mix(1.0 - f, f, vec2(step_));
+    float weight = depth < uWelkin.depthFar ? near.x * near.y + 1e-4 : 0.0;
+    sum += weight * depth;
+    weights += weight;
+  }
+  return (weights > 0.0 ? sum / weights : uWelkin.depthFar) * uWelkin.depthUnit;
+}
+
+// `fromEye` is everywhere the vector from the eye to the point in the host's axes, m.
+
+// Share of sunlight that the clouds leave to a point: their shadow.
+float welkinSunShare(vec3 fromEye) { return sunShareAt(cloudSpace(eastNorthUpOf(fromEye), uWelkin.planet)); }
+
+WelkinLight welkinLight(vec3 fromEye) {
+  vec3 d = eastNorthUpOf(fromEye);
+  vec3 q = cloudSpace(d, uWelkin.planet);
+  WelkinLight light;
+  light.toSun = hostAxesOf(uWelkin.air.sunDirection.xyz);
+  light.sun = sunAt(max(q.z, 0.0), d) * sunShareAt(q);
+  // Inside the clouds' shell between what is known of its bottom and of its top.
+  float height = clamp((q.z - uWelkin.bottom) / max(uWelkin.top - uWelkin.bottom, 1.0), 0.0, 1.0);
+  light.sky = mix(skyBelow(q.xy, sunAt(uWelkin.bottom, d)), uWelkin.clearSky.xyz, height);
+  return light;
+}
+
+// The air alone: for what the host draws before the clouds, which are then laid over it.
+WelkinFront welkinAir(vec3 fromEye) {
+  vec3 d = eastNorthUpOf(fromEye);
+  float distance_ = length(d);
+  vec3 dir = d / max(distance_, 1e-3);
+  WelkinFront front;
+  vec3 inscatter;
+  lookupAerial(uWelkinInscatter, uWelkinThrough, uWelkin.air, dir, distance_, inscatter, front.through);
+  front.through = mix(vec3(1.0), front.through, min(distance_, 1.0));  // the table's first metre stands for none
+  front.light = shadedInscatter(dir, distance_, inscatter, front.through) * uWelkin.exposure;
+  front.clouds = 1.0;
+  return front;
+}
+
+// Air and clouds: for what the host draws after the clouds. A pixel knows its clouds' light, transmittance and mean
+// distance; where the point lies inside, they are taken for one slab of even extinction with that mean.
+WelkinFront welkinFront(vec3 fromEye) {
+  WelkinFront front = welkinAir(fromEye);
+  vec3 d = eastNorthUpOf(fromEye);
+  vec4 p = vec4(d, 1.0);
+  vec2 uv = vec2(dot(uWelkin.clip0, p), dot(uWelkin.clip1, p)) / max(dot(uWelkin.clip3, p), 1e-6) * 0.5 + 0.5;
+  vec4 clouds = textureLod(uWelkinClouds, uv, 0.0);
+  float whole = -log(clamp(clouds.a, 0.01, 1.0));  // optical depth
+  float mean_ = whole < 0.02 ? 0.5 * whole : 1.0 - whole / (exp(whole) - 1.0);  // of what is seen of it
+  float inside = (length(d) - cloudDistance(uv)) * uWelkin.extinction + mean_;
+  float share = 0.0;  // of the clouds' light that comes from before the point
+  if (inside > 0.0) {
+    bool behind = inside >= whole;
+    front.clouds = behind ? clouds.a : exp(-inside);
+    share = behind ? 1.0 : (1.0 - front.clouds) / (1.0 - exp(-whole));
+  }
+  front.light = max(clouds.rgb * (share * uWelkin.cloudExposure) + front.clouds * front.light, vec3(0.0));
+  front.through *= front.clouds;
+  return front;
+}
+
+// A transparent surface's premultiplied colour (in the target's units) as it is seen through air and clouds, to be
+// blended with (one, one minus source alpha) over the finished frame.
+vec4 welkinThrough(vec4 colour, vec3 fromEye) {
+  WelkinFront front = welkinFront(fromEye);
+  return vec4(colour.rgb * front.through + front.light * colour.a, colour.a);
+}
