@@ -145,7 +145,10 @@ int main(int argc, char** argv) {
       leg = {};
     }
   }
-  if (moving.count == 0) return 1;
+  if (moving.count == 0) {
+    fmt::print(stderr, "no frame was judged: legs of {} frames are shorter than --every {}\n", o.legFrames(), o.every);
+    return 1;
+  }
   fmt::print(
       "{{\"psnr_mean\": {:.2f}, \"psnr_worst\": {:.2f}, \"worst_frame\": {}, \"psnr_still\": {:.2f}, "
       "\"psnr_still_worst\": {:.2f}, \"psnr_halves_of_truth\": {:.2f}, \"frames_judged\": {}, \"width\": {}, "
