@@ -52,8 +52,8 @@ class LightVolume {
 
   const gl::Api& gl_;
   QualityPreset preset_;
-  WeatherExtent extent_;                         // squares and their texels
-  int slices_;                                   // of a level, from the bottom of the clouds to their top
+  WeatherExtent extent_;  // squares and their texels
+  int slices_;            // of a level, from the bottom of the clouds to their top
   gl::Texture density_, sun_, diffuse_;
   gl::Texture share_, steps_;  // light_diffusion.frag.glsl and light_sun.frag.glsl, which uses both by turns
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
