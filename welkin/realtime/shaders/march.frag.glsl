@@ -84,8 +84,9 @@ void main() {
   float depth, samples;
   renderRay(normalize(ray), limit, jitter, uMarch, uAir, uTransmittance, uAerialInscatter, uAerialTransmittance, sky,
             colour, depth, samples);
-  // The sky behind is as smooth as the rest of the history.
-  if (uOptions.z == 1.0) colour.rgb += colour.a * lookupSky(uSkyView, uAir, normalize(ray));
+  // The sky behind is as smooth as the rest of the history. Clouds shade the air behind them, which makes their own share
+  // negative there.
+  if (uOptions.z == 1.0) colour.rgb = max(colour.rgb + colour.a * lookupSky(uSkyView, uAir, normalize(ray)), vec3(0.0));
   oColour = vec4(min(colour.rgb * uWind.w, vec3(60000.0)), colour.a);
   oDepth = vec4(min(depth * 0.25, 60000.0));
 #ifdef COUNT_SAMPLES
