@@ -382,9 +382,10 @@ TEST(PathTracer, CoarseNoiseIsJudgedByTheNeighbourhood) {
   settings.noise = kNoise;
   const TraceLayers found = trace(Scene{}, settings);
   std::vector<double> means(kAcross * kDown), variances(means.size());
+  const auto indexOf = [](int x, int y) { return static_cast<std::size_t>(y) * kAcross + static_cast<std::size_t>(x); };
   for (int y = 0; y < settings.height; ++y)
     for (int x = 0; x < settings.width; ++x) {
-      const auto tile = static_cast<std::size_t>(y / kTile * kAcross + x / kTile);
+      const auto tile = indexOf(x / kTile, y / kTile);
       const float* p = first.radiance.at(x, y);
       means[tile] += luminanceOf({p[0], p[1], p[2]}) / kPixels;
       variances[tile] += static_cast<double>(*first.variance.at(x, y)) / kPixels;
@@ -395,11 +396,11 @@ TEST(PathTracer, CoarseNoiseIsJudgedByTheNeighbourhood) {
   int byNeighbours = 0;
   for (int row = 0; row < kDown; ++row)
     for (int column = 0; column < kAcross; ++column) {
-      const auto tile = static_cast<std::size_t>(row * kAcross + column);
+      const auto tile = indexOf(column, row);
       double sum = 0.0, count = 0.0;
       for (int y = std::max(row - 1, 0); y <= std::min(row + 1, kDown - 1); ++y)
         for (int x = std::max(column - 1, 0); x <= std::min(column + 1, kAcross - 1); ++x, ++count)
-          sum += variances[static_cast<std::size_t>(y * kAcross + x)];
+          sum += variances[indexOf(x, y)];
       const auto error = [&](double variance) { return 0.5 * std::sqrt(0.18 * variance / (grey * means[tile])); };
       const double own = error(variances[tile]), around = error(sum / count), worse = std::max(own, around);
       const bool finished = *found.samples.at(column * kTile, row * kTile) == kFirst;
