@@ -90,6 +90,7 @@ DensityField densityField(const Scene& scene) {
                        .drift = {scene.wind.speed, scene.wind.from, scene.time},
                        .seed = scene.seed,
                        .grids = grids,
+                       .heroes = scene.heroes,
                        .weatherMaps = maps});
 }
 
