@@ -21,7 +21,7 @@ struct HeroParams {
   float axisX, axisY, edge, edgeTop;
   float billow, billowSize, billowRatio, billowLow;  // m, m; of octave to octave; share at the base
   float calmTop, calmFrom, calmTo, interior;         // share of the billows at the top; heights in m
-  float baseFade, baseNoise, baseScale, reach;       // m, m, 1/m; m beyond which no billow changes the answer
+  float baseFade, baseNoise, baseScale, reach;       // m, m, 1/m; sum of the octaves' depths, m
   float anvilRadius, anvilTop, anvilThickness, anvilDensity;  // m, m, m; share of the extinction
   float anvilX, anvilRamp, wisp, breadth;  // m, m, m; across over along
   float distortion, worley, clump, wave;   // classic
@@ -55,8 +55,10 @@ FN Real heroRoughness(IN(Real) z, IN(HeroParams) c) {
 
 // Moves the surface by nested billows: each octave is sampled at the foot point on the surface that the larger ones
 // have left, along the normal of the base shape (xyz; w its depth in m). Octaves finer than `footprint` keep their mean.
-// Where what is left can no longer reach the surface the answer is some depth on the right side of it.
-FN Real heroBillows(IN(Vec3) x, IN(Vec4) shape, IN(Real) footprint, IN(HeroParams) c, IN(Sampler3) billows) {
+// Beyond `solid` m inside, the ramp ends; where what is left can no longer bring the surface so near, the answer is some
+// depth on the right side of it.
+FN Real heroBillows(IN(Vec3) x, IN(Vec4) shape, IN(Real) footprint, IN(Real) solid, IN(HeroParams) c,
+                    IN(Sampler3) billows) {
   Real p = shape.w;
   Vec3 normal = xyz(shape);
   Real rough = heroRoughness(x.z, c);
@@ -66,12 +68,12 @@ FN Real heroBillows(IN(Vec3) x, IN(Vec4) shape, IN(Real) footprint, IN(HeroParam
   vec3 origin = xyz(c.rise);
   float left = c.reach;
   for (int i = 0; i < c.octaves; ++i) {
-    if (noneOf(abs(p) < left + footprint)) break;
+    if (noneOf(both(p < solid + kHeroBillowDeep * left, p > -kHeroBillowTop * left))) break;
     Vec3 q = x + normal * clamp(p, -1.2f * size, 1.2f * size);
     Real b = sample3(billows, q * tile + Vec3(origin)).x;
     b = mix(b, Real(kHeroBillowMean), smoothstep(0.25f * size, 0.75f * size, footprint));
     p += amplitude * rough * (1.15f * b - kHeroBillowDeep);
-    left -= amplitude * kHeroBillowDeep;
+    left -= amplitude;
     amplitude *= c.billowRatio;
     size *= 0.5f;
     tile *= 2.0f;
@@ -82,6 +84,7 @@ FN Real heroBillows(IN(Vec3) x, IN(Vec4) shape, IN(Real) footprint, IN(HeroParam
 
 // Share of the base's edge that is cloud: a level that undulates.
 FN Real heroBase(IN(Vec3) x, IN(HeroParams) c) {
+  if (noneOf(x.z < c.baseFade + 1.04f * c.baseNoise)) return Real(1.0f);
   Real n = perlinFbm2(Vec2(x.x, x.y) * c.baseScale, 0, 3, 2, 0.5f, uint(c.seed));
   return smoothstep(0.0f, c.baseFade, x.z + c.baseNoise * n);
 }
@@ -124,14 +127,15 @@ FN Vec2 heroAnvil(IN(Vec3) x, IN(HeroParams) c) {
 }
 
 // Density shares of each kind at a point in the cloud's own axes.
-FN Real heroSolid(IN(Vec3) x, IN(Real) footprint, IN(HeroParams) c, IN(Sampler3) shape, IN(Sampler3) billows) {
+FN Real heroSolid(IN(Vec3) x, IN(Mask) within, IN(Real) footprint, IN(HeroParams) c, IN(Sampler3) shape, IN(Sampler3) billows) {
   Vec3 low = xyz(c.low);
   Vec4 base = sample3(shape, (x - low) / (xyz(c.high) - low));
   if (c.wisp > 0.0f) base.w -= heroTorn(x, c);
-  Real p = heroBillows(x, base, footprint, c, billows);
-  Real edge = mix(Real(c.edge), Real(c.edgeTop), smoothstep(c.calmFrom, c.calmTo, x.z));
-  Real dense = smoothstep(Real(0.0f), max(edge, footprint), p) * heroBase(x, c);
-  dense *= mix(Real(c.interior), Real(1.0f), pow(saturate(x.z / c.low.w), Real(0.666666667f)));
+  base.w = select(within, base.w, Real(-1e9f));
+  Real edge = max(mix(Real(c.edge), Real(c.edgeTop), smoothstep(c.calmFrom, c.calmTo, x.z)), footprint);
+  Real p = heroBillows(x, base, footprint, edge, c, billows);
+  Real dense = smoothstep(Real(0.0f), edge, p) * heroBase(x, c);
+  dense *= mix(Real(c.interior), Real(1.0f), sqrt(saturate(x.z / c.low.w)));
   if (c.anvilRadius > 0.0f) {
     Vec2 ice = heroAnvil(x, c);
     dense = max(dense * (1.0f - 0.55f * ice.y), c.anvilDensity * ice.x);
@@ -163,7 +167,7 @@ const float kHeroFbmMost = 0.6f;
 const float kHeroEddyMost = 2.0f;
 const float kHeroEddy = 26.0f;
 
-FN Real heroPatches(IN(Vec3) x, IN(Real) footprint, IN(HeroParams) c, IN(HeroParts) parts) {
+FN Real heroPatches(IN(Vec3) x, IN(HeroParams) c, IN(HeroParts) parts) {
   // Shredded by the wind: leaning, and curled in eddies.
   Vec3 q = Vec3(x.x - 0.5f * x.z, x.y, x.z);
   Vec3 eddy = curlFbm3(q * (1.0f / 210.0f), 0, 2, 2, 0.5f, uint(c.seed) + 3u);
@@ -183,7 +187,7 @@ FN Real heroPatches(IN(Vec3) x, IN(Real) footprint, IN(HeroParams) c, IN(HeroPar
 
 const float kHeroBend = 130.0f;
 
-FN Real heroFilaments(IN(Vec3) x, IN(Real) footprint, IN(HeroParams) c, IN(HeroParts) parts) {
+FN Real heroFilaments(IN(Vec3) x, IN(HeroParams) c, IN(HeroParts) parts) {
   Vec3 g = x * (1.0f / 1500.0f);
   Real px = x.x + kHeroBend * perlin3(g, 0, uint(c.seed) + 3u);
   Real py = x.y + kHeroBend * perlin3(g, 0, uint(c.seed) + 5u);
@@ -292,10 +296,10 @@ FN Real heroExtinction(IN(Vec3) point, IN(Real) footprint, IN(HeroParams) c, IN(
   Mask within = both(both(both(x.x > c.low.x, x.x < c.high.x), both(x.y > c.low.y, x.y < c.high.y)),
                      both(x.z > c.low.z, x.z < c.high.z));
   Real dense = 0.0f;
-  if (c.kind == kHeroSolid) dense = heroSolid(x, footprint, c, shape, billows);
+  if (c.kind == kHeroSolid) dense = heroSolid(x, within, footprint, c, shape, billows);
   if (c.kind == kHeroPlates) dense = heroPlates(x, footprint, c, parts);
-  if (c.kind == kHeroPatches) dense = heroPatches(x, footprint, c, parts);
-  if (c.kind == kHeroFilaments) dense = heroFilaments(x, footprint, c, parts);
+  if (c.kind == kHeroPatches) dense = heroPatches(x, c, parts);
+  if (c.kind == kHeroFilaments) dense = heroFilaments(x, c, parts);
   if (c.kind == kHeroPouches) dense = heroPouches(x, footprint, c);
   if (c.kind == kHeroClassic) dense = heroClassic(x, c, shape);
   return select(within, c.high.w * dense, Real(0.0f));

@@ -54,7 +54,7 @@ void makeSolid(HeroBody& body, const Hero& hero, const HeroForm& form, const Her
   const HeroSolid solid = heroSolid(form, hero.surface.taper, life, static_cast<std::uint32_t>(p.seed));
   float all = 0.0f, amplitude = p.billow;
   for (int i = 0; i < p.octaves; ++i, amplitude *= p.billowRatio) all += amplitude;
-  p.reach = law::kHeroBillowDeep * all + std::max(p.edge, p.edgeTop);
+  p.reach = all;
   glm::vec3 low, high;
   boundsOf(solid, low, high);
   const float out = law::kHeroBillowTop * all + 1.0f;

@@ -71,7 +71,7 @@ float HeroBounds::solidIn(const Box& x) const {
   const float edge = std::min(glm::mix(c_.edge, c_.edgeTop, law::smoothstep(c_.calmFrom, c_.calmTo, x.low.z)),
                               glm::mix(c_.edge, c_.edgeTop, law::smoothstep(c_.calmFrom, c_.calmTo, x.high.z)));
   const float flat = law::smoothstep(0.0f, c_.baseFade, x.high.z + kPerlinMost * c_.baseNoise);
-  const float rise = std::pow(law::saturate(x.high.z / c_.low.w), 0.666666667f);
+  const float rise = std::sqrt(law::saturate(x.high.z / c_.low.w));
   const float inside = std::max(c_.interior, glm::mix(c_.interior, 1.0f, rise));
   return std::max(law::smoothstep(0.0f, edge, p.high) * flat * inside, ice);
 }
@@ -184,8 +184,7 @@ Interval HeroBounds::depthIn(const Box& x, const Interval& base) const {
       product({std::min(lowA, lowB), std::max(lowA, lowB)}, {std::min(topA, topB), std::max(topA, topB)});
   const glm::vec3 from = (x.low - glm::vec3(c_.low)) * texels_, to = (x.high - glm::vec3(c_.low)) * texels_;
   Interval p = base;
-  float amplitude = c_.billow, size = c_.billowSize, tile = c_.rise.w, rest = 0.0f;
-  for (int i = 0; i < c_.octaves; ++i) rest += c_.billow * std::pow(c_.billowRatio, static_cast<float>(i));
+  float amplitude = c_.billow, size = c_.billowSize, tile = c_.rise.w, rest = c_.reach;
   Interval normal[3];
   bool known = false;
   glm::vec3 origin(c_.rise);

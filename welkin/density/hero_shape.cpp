@@ -9,6 +9,7 @@ namespace welkin {
 
 namespace {
 
+constexpr float kMostBalls = 40.0f;  // of a tower
 constexpr float kJoint = 0.02f;  // width of the joint between balls, as a share of the size
 
 // Balls stacked up to `height` over a place, each a little aside. `grown` is the share of the height that the tower has
@@ -17,7 +18,8 @@ void addTower(const HeroForm& form, const glm::vec2& place, float radius, float 
               std::vector<glm::vec4>& balls) {
   radius = std::min(radius, height / 1.35f);
   const float first = 0.35f * radius, last = height - radius;
-  const int count = std::max(1, static_cast<int>(std::ceil((last - first) / (0.62f * radius))) + 1);
+  const float apart = std::max(0.62f * radius, (last - first) / kMostBalls);
+  const int count = std::max(1, static_cast<int>(std::ceil((last - first) / apart)) + 1);
   const float swollen = std::min(glm::mix(0.45f, 1.0f, grown), grown * height / (1.35f * radius));
   for (int i = 0; i < count; ++i) {
     const float up = count > 1 ? static_cast<float>(i) / static_cast<float>(count - 1) : 1.0f;
