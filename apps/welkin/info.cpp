@@ -75,7 +75,8 @@ void printTable(const Scene& scene, const SkyStatistics& sky) {
     printRow(fmt::format("sheet {}", i), nameOf(scene.sheets[i].kind), sky.sheets[i]);
   for (std::size_t i = 0; i < sky.heroes.size(); ++i)
     fmt::print("{:<8} {:<20} {:>7.0f} {:>7.0f} {:>9.3g} over its middle\n", fmt::format("hero {}", i),
-               nameOf(scene.heroes[i].cloud.species), sky.heroes[i].base, sky.heroes[i].top, sky.heroes[i].opticalDepth);
+               nameOf(scene.heroes[i].cloud.species), sky.heroes[i].base, sky.heroes[i].top,
+               sky.heroes[i].opticalDepth);
   fmt::print(
       "\nCloudy columns are those with a vertical optical depth over {} (layers) or {} (sheets). 2 % of them begin\n"
       "below the base, 2 % end above the top. Area: mean over all columns; in cloud, median: over cloudy ones.\n",

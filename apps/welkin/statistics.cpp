@@ -54,9 +54,8 @@ glm::dvec2 middleOf(const Layer& layer, const Scene& scene) {
 
 // The column over the middle of a hero cloud's box, without other clouds.
 CloudColumn middleOf(const Hero& hero, const Scene& scene) {
-  const DensityField field({.drift = {scene.wind.speed, scene.wind.from, scene.time},
-                            .seed = scene.seed,
-                            .heroes = std::span(&hero, 1)});
+  const DensityField field(
+      {.drift = {scene.wind.speed, scene.wind.from, scene.time}, .seed = scene.seed, .heroes = std::span(&hero, 1)});
   const HeroBody& body = field.heroes().front();
   const double bottom = body.lowest().z, step = (body.highest().z - bottom) / kHeroSteps;
   std::vector<glm::dvec3> points;

@@ -49,8 +49,8 @@ double extinctionAtOne(const Scene& scene, VolumeDensity density) {
   if (density == VolumeDensity::normalized) return most;
   if (density == VolumeDensity::extinction) return 1.0;
   // Extinction of droplets: Q 3 LWC / (4 density r).
-  const float diameter = scene.layers.empty() ? scene.heroes.front().cloud.dropletDiameter
-                                              : scene.layers.front().cloud.dropletDiameter;
+  const float diameter =
+      scene.layers.empty() ? scene.heroes.front().cloud.dropletDiameter : scene.layers.front().cloud.dropletDiameter;
   const double radius = 0.5e-6 * diameter;
   return 0.75 * kExtinctionEfficiency / (kWaterDensity * radius);
 }

@@ -33,7 +33,8 @@ struct Region {
 };
 
 // Reads "west,south,east,north[,bottom,top]"; without heights those of the sky's clouds. Empty: `kDefaultEdge` round
-// the camera, or, in a sky without layers, the box round its hero clouds. Rounded outward to bricks of voxels, so that neighbouring files fit together.
+// the camera, or, in a sky without layers, the box round its hero clouds. Rounded outward to bricks of voxels, so that
+// neighbouring files fit together.
 inline constexpr double kDefaultEdge = 6000.0;  // m, by choice
 Region regionOf(const std::string& text, const Scene& scene, double voxel);
 

@@ -99,9 +99,9 @@ TEST(Hero, TheFieldIsTheLaw) {
     const std::vector<float> found = field.extinction(points);
     double difference = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const float law = law::heroExtinction(glm::vec3(points[i] - glm::dvec3(glm::dvec2(points[0]), 0.0)), 0.0f,
-                                            body.paramsAt(glm::dvec2(points[0])), *body.parts, body.shapeView(),
-                                            tile.view());
+      const float law =
+          law::heroExtinction(glm::vec3(points[i] - glm::dvec3(glm::dvec2(points[0]), 0.0)), 0.0f,
+                              body.paramsAt(glm::dvec2(points[0])), *body.parts, body.shapeView(), tile.view());
       difference += std::abs(law - found[i]);
       sum += law;
     }
@@ -139,27 +139,26 @@ TEST(Hero, TheWindCarriesItsShare) {
   EXPECT_NEAR(body.origin.y, 0.0, 1e-3);
 }
 
-// The whole life in small steps: no jumps, nothing at either end, most in between.
+// Nothing at either end of its life, most in between, and no jumps on the way.
 TEST(Hero, LivesSmoothly) {
-  Hero hero = heroPreset(HeroSpecies::incus);
-  std::vector<double> water;
-  for (int step = 0; step <= 50; ++step) {
-    hero.cloud.age = static_cast<float>(step) / 50.0f;
-    const DensityField field({.heroes = std::span(&hero, 1)});
+  std::vector<glm::dvec3> points;
+  for (int z = 0; z < 24; ++z)
+    for (int y = 0; y < 20; ++y)
+      for (int x = 0; x < 20; ++x) points.emplace_back(-9500.0 + 1000.0 * x, -9500.0 + 1000.0 * y, 1300.0 + 500.0 * z);
+  const auto water = [&](float age) {
+    Hero hero = heroPreset(HeroSpecies::incus);
+    hero.cloud.age = age;
     double sum = 0.0;
-    std::vector<glm::dvec3> points;
-    for (int z = 0; z < 24; ++z)
-      for (int y = 0; y < 20; ++y)
-        for (int x = 0; x < 20; ++x)
-          points.emplace_back(-9500.0 + 1000.0 * x, -9500.0 + 1000.0 * y, 1300.0 + 500.0 * z);
-    for (const float sigma : field.extinction(points)) sum += sigma;
-    water.push_back(sum);
-  }
-  const double most = *std::max_element(water.begin(), water.end());
-  EXPECT_EQ(water.front(), 0.0);
-  EXPECT_EQ(water.back(), 0.0);
-  EXPECT_GT(water[35], 0.5 * most);
-  for (std::size_t i = 1; i < water.size(); ++i) EXPECT_LT(std::abs(water[i] - water[i - 1]), 0.15 * most) << i;
+    for (const float sigma : DensityField({.heroes = std::span(&hero, 1)}).extinction(points)) sum += sigma;
+    return sum;
+  };
+  const double most = water(0.75f);
+  EXPECT_EQ(water(0.0f), 0.0);
+  EXPECT_EQ(water(1.0f), 0.0);
+  EXPECT_LT(water(0.15f), 0.3 * most);
+  EXPECT_LT(water(0.92f), 0.7 * most);
+  for (const float age : {0.1f, 0.25f, 0.3f, 0.4f, 0.46f, 0.55f, 0.7f, 0.82f, 0.9f})
+    EXPECT_NEAR(water(age + 0.002f), water(age), 0.025 * most) << age;
 }
 
 TEST(Hero, AgesWithTime) {
@@ -186,7 +185,8 @@ TEST(Hero, ClassicIsTheShapeGradient) {
   for (int i = 0; i < 2000; ++i) {
     const glm::dvec3 p = randomPoint(field.heroes().front(), random);
     const float gradient = shapeGradient(hero.form, 1.2f, glm::vec3(p) - glm::vec3(0.0f, 0.0f, 1200.0f));
-    EXPECT_NEAR(field.extinction(p) / (0.5f * hero.cloud.extinction), std::max(gradient, 0.0f), 0.012f);
+    EXPECT_NEAR(field.extinction(p) / (0.5f * hero.cloud.extinction), std::max(gradient, 0.0f),
+                0.025f);  // the grid cuts kinks
   }
 }
 
@@ -226,8 +226,8 @@ TEST(Hero, GradationPassesItsRadiiAndStaysBetweenThem) {
 TEST(Hero, TheShapesGridIsGoodToAFewMetres) {
   const Hero hero = heroPreset(HeroSpecies::congestus);
   const HeroBody body = bakeHero(hero, {}, 1);
-  const HeroSolid solid = heroSolid(hero.form, hero.surface.taper, heroLife(hero.cloud.age),
-                                    static_cast<std::uint32_t>(body.params.seed));
+  const HeroSolid solid =
+      heroSolid(hero.form, hero.surface.taper, heroLife(hero.cloud.age), static_cast<std::uint32_t>(body.params.seed));
   const glm::vec3 low(body.params.low), size = glm::vec3(body.params.high) - low;
   std::mt19937 random(2);
   std::uniform_real_distribution<float> unit;

@@ -55,7 +55,8 @@ inline Scene randomScene(unsigned seed, double share = 0.5) {
   scene.heroes.resize(random() % 3);
   for (const Section& section : sectionsOf(scene))
     for (const Field& f : section.fields)
-      if (section.path.starts_with("grid.") || section.path.starts_with("hero.")) assign(scene, section, f, randomValue(f, random));
+      if (section.path.starts_with("grid.") || section.path.starts_with("hero."))
+        assign(scene, section, f, randomValue(f, random));
   return scene;
 }
 

@@ -366,7 +366,7 @@ Majorants bakeMajorants(const CloudCache& cache, const WorldBox& solids, const C
   std::optional<TexelBounds> billows;
   if (!cache.heroes.empty()) billows.emplace(cache.noise.heroBillows.view(), 0, TexelBounds::Kind::volume);
   std::vector<HeroBounds> heroes;
-  for (const CachedHero& hero : cache.heroes) 
+  for (const CachedHero& hero : cache.heroes)
     heroes.emplace_back(hero.params, *hero.body.parts, hero.body.shapeView(), *billows);
   if (!grids.empty() || !heroes.empty()) {
     m.bottom = std::min(m.bottom, static_cast<float>(solids.low.z));

@@ -20,8 +20,8 @@ struct MajorantLevel {
   std::size_t offset = 0;
 };
 
-// Upper bounds of the extinction (1/m) of all layers, grids and hero clouds together, in nested squares round a centre, finest
-// first, each twice as wide as the one before. Outside them there is no cloud.
+// Upper bounds of the extinction (1/m) of all layers, grids and hero clouds together, in nested squares round a centre,
+// finest first, each twice as wide as the one before. Outside them there is no cloud.
 struct Majorants {
   glm::vec2 centre{0.0f};           // the anchor, or the middle of grids and hero clouds where there is no layer
   float bottom = 0.0f, top = 0.0f;  // altitudes that hold all cloud, m

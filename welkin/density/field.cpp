@@ -102,8 +102,9 @@ DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures t
 
 DensityField::DensityField(const DensityParts& parts, DensityTextures textures)
     : layers_(parts.layers.begin(), parts.layers.end()), sheets_(parts.sheets.begin(), parts.sheets.end()),
-      grids_(parts.grids.begin(), parts.grids.end()), heroes_(parts.heroes.begin(), parts.heroes.end()), maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()),
-      drift_(parts.drift), seed_(parts.seed), textures_(bakeDensityTextures(parts, std::move(textures))) {
+      grids_(parts.grids.begin(), parts.grids.end()), heroes_(parts.heroes.begin(), parts.heroes.end()),
+      maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()), drift_(parts.drift), seed_(parts.seed),
+      textures_(bakeDensityTextures(parts, std::move(textures))) {
   maps_.resize(layers_.size());
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     authoringMap(layers_[i], &maps_[i]);
@@ -155,7 +156,8 @@ void DensityField::addHeroes(std::span<const glm::dvec3> points, float footprint
         if (glm::any(glm::lessThan(high, body.lowest())) || glm::any(glm::greaterThan(low, body.highest()))) continue;
         if (!planes) planes.emplace(run, [&](std::size_t i) { return points[i]; });
         kernels::heroExtinction(body.paramsAt(run.anchor), *body.parts,
-                                {body.shapeView(), textures_.heroBillows.view()}, footprint, planes->points(), planes->answers());
+                                {body.shapeView(), textures_.heroBillows.view()}, footprint, planes->points(),
+                                planes->answers());
         for (std::size_t i = run.begin; i < run.end; ++i) sum[i] += planes->answers()[i - run.begin];
       }
     }

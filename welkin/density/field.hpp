@@ -32,8 +32,8 @@ struct DensityTextures {
   Volume profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, heroBillows;
 };
 
-// The noise that the shapes of these layers and hero clouds need, as half floats hold it; what `given` has already is kept. Throws
-// Error (badInput) for settings out of range.
+// The noise that the shapes of these layers and hero clouds need, as half floats hold it; what `given` has already is
+// kept. Throws Error (badInput) for settings out of range.
 DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures given);
 
 // A layer's cloud over one place.
@@ -62,8 +62,8 @@ class DensityField {
   const std::vector<PlacedGrid>& grids() const { return grids_; }
   const std::vector<HeroBody>& heroes() const { return bodies_; }
 
-  // Extinction in 1/m of all layers, grids and hero clouds together; detail finer than `footprint` (m) is replaced by its mean, 0 is
-  // the truth.
+  // Extinction in 1/m of all layers, grids and hero clouds together; detail finer than `footprint` (m) is replaced by
+  // its mean, 0 is the truth.
   float extinction(const glm::dvec3& point, float footprint = 0.0f) const;
   std::vector<float> extinction(std::span<const glm::dvec3> points, float footprint = 0.0f) const;
   // The same of one layer.

@@ -39,7 +39,7 @@ struct HeroParts { vec4 part[kHeroParts]; };
 const float kHeroCells = 12.0f;
 const float kHeroBillowTop = 0.4f;
 const float kHeroBillowDeep = 0.75f;
-const float kHeroBillowMean = 0.47f;
+const float kHeroBillowMean = 0.7f;
 
 FN Vec3 heroAxes(IN(Vec3) q, IN(HeroParams) c) {
   Real x = q.x - c.place.x;
@@ -55,9 +55,9 @@ FN Real heroRoughness(IN(Real) z, IN(HeroParams) c) {
 
 // Moves the surface by nested billows: each octave is sampled at the foot point on the surface that the larger ones
 // have left, along the normal of the base shape (xyz; w its depth in m). Octaves finer than `footprint` keep their mean.
-// Beyond `solid` m inside, the ramp ends; where what is left can no longer bring the surface so near, the answer is some
-// depth on the right side of it.
-FN Real heroBillows(IN(Vec3) x, IN(Vec4) shape, IN(Real) footprint, IN(Real) solid, IN(HeroParams) c,
+// Where what is left can no longer bring the depth into the ramp from `ramp.x` to `ramp.y`, the answer is some depth on
+// the right side of it.
+FN Real heroBillows(IN(Vec3) x, IN(Vec4) shape, IN(Real) footprint, IN(Vec2) ramp, IN(HeroParams) c,
                     IN(Sampler3) billows) {
   Real p = shape.w;
   Vec3 normal = xyz(shape);
@@ -68,7 +68,7 @@ FN Real heroBillows(IN(Vec3) x, IN(Vec4) shape, IN(Real) footprint, IN(Real) sol
   vec3 origin = xyz(c.rise);
   float left = c.reach;
   for (int i = 0; i < c.octaves; ++i) {
-    if (noneOf(both(p < solid + kHeroBillowDeep * left, p > -kHeroBillowTop * left))) break;
+    if (noneOf(both(p < ramp.y + kHeroBillowDeep * left, p > ramp.x - kHeroBillowTop * left))) break;
     Vec3 q = x + normal * clamp(p, -1.2f * size, 1.2f * size);
     Real b = sample3(billows, q * tile + Vec3(origin)).x;
     b = mix(b, Real(kHeroBillowMean), smoothstep(0.25f * size, 0.75f * size, footprint));
@@ -126,15 +126,21 @@ FN Vec2 heroAnvil(IN(Vec3) x, IN(HeroParams) c) {
   return Vec2(ice * mix(Real(1.0f), Real(0.25f), saturate(t)), ice);
 }
 
+// Depths between which density rises from 0 to 1: the edge, or as wide as the footprint about its middle.
+FN Vec2 heroRamp(IN(Real) edge, IN(Real) footprint) {
+  Real half_ = 0.5f * max(edge, footprint);
+  return Vec2(0.5f * edge - half_, 0.5f * edge + half_);
+}
+
 // Density shares of each kind at a point in the cloud's own axes.
 FN Real heroSolid(IN(Vec3) x, IN(Mask) within, IN(Real) footprint, IN(HeroParams) c, IN(Sampler3) shape, IN(Sampler3) billows) {
   Vec3 low = xyz(c.low);
   Vec4 base = sample3(shape, (x - low) / (xyz(c.high) - low));
   if (c.wisp > 0.0f) base.w -= heroTorn(x, c);
   base.w = select(within, base.w, Real(-1e9f));
-  Real edge = max(mix(Real(c.edge), Real(c.edgeTop), smoothstep(c.calmFrom, c.calmTo, x.z)), footprint);
-  Real p = heroBillows(x, base, footprint, edge, c, billows);
-  Real dense = smoothstep(Real(0.0f), edge, p) * heroBase(x, c);
+  Vec2 ramp = heroRamp(mix(Real(c.edge), Real(c.edgeTop), smoothstep(c.calmFrom, c.calmTo, x.z)), footprint);
+  Real p = heroBillows(x, base, footprint, ramp, c, billows);
+  Real dense = smoothstep(ramp.x, ramp.y, p) * heroBase(x, c);
   dense *= mix(Real(c.interior), Real(1.0f), sqrt(saturate(x.z / c.low.w)));
   if (c.anvilRadius > 0.0f) {
     Vec2 ice = heroAnvil(x, c);
@@ -159,7 +165,8 @@ FN Real heroPlates(IN(Vec3) x, IN(Real) footprint, IN(HeroParams) c, IN(HeroPart
   }
   Real frayed = 0.5f + perlinFbm3(Vec3(x.x / 900.0f, x.y / 160.0f, x.z / 130.0f), 0, 4, 2, 0.6f, uint(c.seed) + 5u);
   p -= c.wisp * saturate(frayed) * smoothstep(0.1f * far, far, x.x);
-  return smoothstep(Real(0.0f), max(Real(c.edge), footprint), p);
+  Vec2 ramp = heroRamp(Real(c.edge), footprint);
+  return smoothstep(ramp.x, ramp.y, p);
 }
 
 // Limits that its bounds rest on, and how far eddies carry, m.
@@ -179,10 +186,10 @@ FN Real heroPatches(IN(Vec3) x, IN(HeroParams) c, IN(HeroParts) parts) {
     inside = max(inside, 1.0f - pow(dot(d, d), Real(0.6f)));
   }
   Real torn = perlinFbm3(Vec3(q.x / 230.0f, q.y / 190.0f, q.z / 150.0f) + eddy * 0.35f, 0, 6, 2, 0.72f, uint(c.seed));
-  Real p = 0.5f * inside - 0.36f + 1.9f * min(torn, kHeroFbmMost);
+  Real p = 0.55f * inside - 0.1f + 2.2f * min(torn, kHeroFbmMost);
   Real fine = 0.4f + perlinFbm3(q / 45.0f, 0, 3, 2, 0.7f, uint(c.seed) + 17u);
   p -= 0.35f * saturate(fine) * (1.0f - smoothstep(0.0f, 0.35f, p));
-  return smoothstep(0.0f, 0.25f, p) * smoothstep(0.0f, 0.1f * c.low.w, x.z);
+  return smoothstep(0.0f, 0.35f, p) * smoothstep(0.0f, 0.1f * c.low.w, x.z);
 }
 
 const float kHeroBend = 130.0f;
@@ -254,7 +261,8 @@ FN Real heroPouches(IN(Vec3) x, IN(Real) footprint, IN(HeroParams) c) {
   Real across = x.y / c.breadth;
   Real rim = c.halfWidth - sqrt(x.x * x.x + across * across);
   Real p = min(min(x.z - face, c.low.w - x.z), 0.4f * rim + 0.2f * c.billow * bend.x);
-  return smoothstep(Real(0.0f), max(Real(c.edge), footprint), p);
+  Vec2 ramp = heroRamp(Real(c.edge), footprint);
+  return smoothstep(ramp.x, ramp.y, p);
 }
 
 // 003 eq. 3.4: the shape gradient S(Tz) - Tx^2 - Ty^2 comes from the shape's grid; the offset O varies about 1, and

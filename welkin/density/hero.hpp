@@ -23,8 +23,8 @@ enum class HeroSpecies {
 template <>
 struct ChoiceNames<HeroSpecies> {
   static constexpr std::array<std::string_view, 10> names{
-      "humilis",         "mediocris",      "congestus", "calvus",                 "incus", "lenticularis",
-      "stratus_fractus", "cirrus_uncinus", "mammatus",  "altocumulus_castellanus"};
+      "humilis",      "mediocris",       "congestus",      "calvus",   "incus",
+      "lenticularis", "stratus_fractus", "cirrus_uncinus", "mammatus", "altocumulus_castellanus"};
 };
 
 // Where a hero cloud stands, how old it is and what it is made of.
@@ -75,9 +75,9 @@ struct FieldTable<HeroCloud> {
 };
 
 // towers: a cluster of them, built of balls. rows: two rows of turrets on flat cloud. curve: a gradation curve swept
-// round the axis (003 ch. 3.1.3). ellipsoid: half of one, with an exponent for the height (003 ch. 3.1.1, 3.1.2). plates:
-// smooth ones stacked. patches: shreds. filaments: bundles of falling ice. pouches: a slab that hangs down in bags.
-// classic: 003's own formula (eq. 3.4).
+// round the axis (003 ch. 3.1.3). ellipsoid: half of one, with an exponent for the height (003 ch. 3.1.1, 3.1.2).
+// plates: smooth ones stacked. patches: shreds. filaments: bundles of falling ice. pouches: a slab that hangs down in
+// bags. classic: 003's own formula (eq. 3.4).
 enum class HeroShape { towers, rows, curve, ellipsoid, plates, patches, filaments, pouches, classic };
 template <>
 struct ChoiceNames<HeroShape> {
@@ -101,7 +101,7 @@ struct HeroForm {
   float exponent = 2.0f;
   glm::vec3 radiiLow{0.85f, 0.95f, 0.8f};
   glm::vec3 radiiHigh{0.62f, 0.5f, 0.0f};
-  float anvil = 0.0f;            // m
+  float anvil = 0.0f;  // m
   float anvilThickness = 0.11f;
   float anvilDensity = 0.03f;
 };
@@ -213,8 +213,9 @@ struct FieldTable<HeroClassic> {
         field<&HeroClassic::noiseWhisp>("noise_whisp", {0, 2}, {0, 1}, "Noise Whisp: its gain"),
         field<&HeroClassic::windStrength, kMetresPerSecond>("wind_strength", {0, 150}, {0, 40},
                                                             "Wind Strength: speed of the texture"),
-        field<&HeroClassic::windDirection>("wind_direction", {-1, 1}, {},
-                                           "Wind Direction: where it goes, in the cloud's own axes; made a unit vector"),
+        field<&HeroClassic::windDirection>(
+            "wind_direction", {-1, 1}, {},
+            "Wind Direction: where it goes, in the cloud's own axes; made a unit vector"),
         field<&HeroClassic::stationary>("stationary", {0, 1}, {},
                                         "Stationary: share of the cloud's place that the texture follows"),
         field<&HeroClassic::time, kSeconds>("time", {0, 1e7}, {0, 3600}, "Time: added to the sky's"));

@@ -104,9 +104,8 @@ void makeClassic(HeroBody& body, const Hero& hero, const HeroForm& form, const D
   p.wind = {period(fine.x), period(fine.y), period(fine.z), static_cast<float>(time / kChurn)};
   const glm::vec3 half(p.halfWidth, p.halfWidth * form.breadth, 0.0f);
   setBox(p, -half, half + glm::vec3(0.0f, 0.0f, form.height));
-  body.shape = gridOf(p, cells, [&](const glm::vec3& x) {
-    return glm::vec4(0.0f, 0.0f, 0.0f, shapeGradient(form, c.cloudScale, x));
-  });
+  body.shape = gridOf(
+      p, cells, [&](const glm::vec3& x) { return glm::vec4(0.0f, 0.0f, 0.0f, shapeGradient(form, c.cloudScale, x)); });
 }
 
 void makeGeometry(HeroBody& body, const HeroGeometry& geometry) {

@@ -15,8 +15,8 @@ struct HeroBody {
   glm::dvec3 origin{0.0};    // the middle of its base: east, north, altitude in m, at the time of the drift
   law::HeroParams params{};  // but for `place`, which hangs on the anchor
   std::shared_ptr<const law::HeroParts> parts;
-  // RGBA over the box, as halves: unit normal and depth below the smooth surface in m; of "classic" the shape gradient in
-  // the last channel. One texel for kinds that have none.
+  // RGBA over the box, as halves: unit normal and depth below the smooth surface in m; of "classic" the shape gradient
+  // in the last channel. One texel for kinds that have none.
   std::shared_ptr<const Volume> shape;
 
   TextureView shapeView() const;

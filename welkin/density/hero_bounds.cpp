@@ -87,8 +87,8 @@ float HeroBounds::anvilIn(const Box& x) const {
   const float away = awayFrom(c_.anvilX), t = away / widest, thin = 1.0f - t;
   if (t >= 1.0f) return 0.0f;
   const float core = awayFrom(0.0f) / (0.35f * c_.anvilRadius), dome = awayFrom(0.0f) / (0.11f * c_.anvilRadius);
-  const float top = c_.anvilTop + th * (0.45f * std::sqrt(1.0f - t * t) + 0.5f * std::exp(-0.5f * dome * dome) +
-                                        0.14f * kPerlinMost);
+  const float top =
+      c_.anvilTop + th * (0.45f * std::sqrt(1.0f - t * t) + 0.5f * std::exp(-0.5f * dome * dome) + 0.14f * kPerlinMost);
   const float bottom =
       c_.anvilTop - th * (1.1f * thin + 0.12f + 1.2f * std::exp(-0.5f * core * core) + 0.3f * kPerlinMost * thin);
   const float depth = std::min({top - x.low.z, x.high.z - bottom, 0.3f * (widest - away)}) + 0.01f;
@@ -126,8 +126,8 @@ float HeroBounds::patchesIn(const Box& x) const {
     const glm::vec3 d = glm::max(glm::max(low - at, at - high), glm::vec3(0.0f)) * inverse;
     inside = std::max(inside, 1.0f - std::pow(glm::dot(d, d), 0.6f));
   }
-  const float p = 0.5f * inside - 0.36f + 1.9f * law::kHeroFbmMost + 1e-4f;
-  return law::smoothstep(0.0f, 0.25f, p) * law::smoothstep(0.0f, 0.1f * c_.low.w, x.high.z);
+  const float p = 0.55f * inside - 0.1f + 2.2f * law::kHeroFbmMost + 1e-4f;
+  return law::smoothstep(0.0f, 0.35f, p) * law::smoothstep(0.0f, 0.1f * c_.low.w, x.high.z);
 }
 
 float HeroBounds::filamentsIn(const Box& x) const {
@@ -140,9 +140,9 @@ float HeroBounds::filamentsIn(const Box& x) const {
     const float x0 = x.low.x - bend, x1 = x.high.x + bend, y0 = x.low.y - bend, y1 = x.high.y + bend;
     if (x1 < box.x - box.y || x0 > box.x + box.y || y1 < box.z - box.w || y0 > box.z + box.w) continue;
     const auto gap = [](float low, float high, float at) { return std::max({low - at, at - high, 0.0f}); };
-    const float r = (square(gap(x0, x1, head.x)) + square(gap(y0, y1, head.y)) +
-                     2.5f * square(gap(x.low.z, x.high.z, head.z))) /
-                    square(head.w);
+    const float r =
+        (square(gap(x0, x1, head.x)) + square(gap(y0, y1, head.y)) + 2.5f * square(gap(x.low.z, x.high.z, head.z))) /
+        square(head.w);
     if (r < 6.0f) sum += 0.9f * std::exp(-r);
     for (int k = 0; k < law::kHeroStrands; ++k) {
       const glm::vec4 at = parts_.part[first + 2 + 2 * k], strand = parts_.part[first + 3 + 2 * k];

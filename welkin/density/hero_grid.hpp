@@ -7,8 +7,8 @@ namespace welkin {
 
 constexpr double kHeroGridVoxels = 4e6;  // in the box of one cloud, by choice
 
-// The cloud as it is at `time` (s), in still air: the wind has not moved it. Voxels are cubes, about `voxels` of them in
-// its box. `seed` is the scene's.
+// The cloud as it is at `time` (s), in still air: the wind has not moved it. Voxels are cubes, about `voxels` of them
+// in its box. `seed` is the scene's.
 PlacedGrid heroGrid(const Hero& hero, double time, int seed, double voxels = kHeroGridVoxels);
 
 }  // namespace welkin

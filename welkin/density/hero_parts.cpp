@@ -32,15 +32,17 @@ HeroGeometry heroPlates(const HeroForm& form, std::uint32_t seed) {
   const float half = 0.5f * form.width;
   // So that the topmost reaches the height; each lies 1.25 of its thickness above the one below.
   float stack = 0.0f;
-  const auto share = [&](int i) { return g.count > 1 ? static_cast<float>(i) / static_cast<float>(g.count - 1) : 0.0f; };
+  const auto share = [&](int i) {
+    return g.count > 1 ? static_cast<float>(i) / static_cast<float>(g.count - 1) : 0.0f;
+  };
   for (int i = 0; i < g.count; ++i) stack += (i + 1 < g.count ? 1.25f : 1.3f) * (1.0f - 0.25f * share(i));
   const float unit = 0.9f * form.height / (stack + 0.3f);
   float z = 0.3f * unit;
   for (int i = 0; i < g.count; ++i) {
     const float u = share(i), thick = unit * (1.0f - 0.25f * u) * dice(0.85f, 1.1f);
     const float radius = half * glm::mix(1.0f, 0.45f, std::pow(u, 0.9f)) * dice(0.9f, 1.05f) / 1.1f;
-    const glm::vec4 at(half * (0.04f + 0.1f * u * dice(-1.0f, 1.0f)), half * form.breadth * 0.06f * dice(-1.0f, 1.0f), z,
-                       radius);
+    const glm::vec4 at(half * (0.04f + 0.1f * u * dice(-1.0f, 1.0f)), half * form.breadth * 0.06f * dice(-1.0f, 1.0f),
+                       z, radius);
     const glm::vec4 plate(thick, 0.3f * thick, 0.1f * form.height, 1.22f);
     g.parts.part[2 * i] = at;
     g.parts.part[2 * i + 1] = plate;
@@ -59,12 +61,12 @@ HeroGeometry heroPatches(const HeroForm& form, std::uint32_t seed) {
   for (int i = 0; i < g.count; ++i) {
     const float radius = half * dice(0.29f, 1.0f) * 0.6f;
     const glm::vec3 axes(radius, radius * dice(0.55f, 0.9f), form.height * dice(0.22f, 0.4f));
-    const glm::vec3 at((half - 0.5f * radius) * dice(-1.0f, 1.0f), (half * form.breadth - 0.3f * radius) * dice(-1.0f, 1.0f),
-                       form.height * dice(0.3f, 0.7f));
+    const glm::vec3 at((half - 0.5f * radius) * dice(-1.0f, 1.0f),
+                       (half * form.breadth - 0.3f * radius) * dice(-1.0f, 1.0f), form.height * dice(0.3f, 0.7f));
     g.parts.part[2 * i] = glm::vec4(at, 0.0f);
     g.parts.part[2 * i + 1] = glm::vec4(1.0f / axes, 0.0f);
-    // Torn noise reaches to 2.2 radii; z leans x by a half.
-    const glm::vec3 reach = 2.2f * axes + law::kHeroEddy * law::kHeroEddyMost;
+    // Torn noise reaches to 2.7 radii; z leans x by a half.
+    const glm::vec3 reach = 2.7f * axes + law::kHeroEddy * law::kHeroEddyMost;
     const float lean = 0.5f * (std::abs(at.z) + reach.z);
     include(g, at - reach - glm::vec3(lean, 0.0f, 0.0f), at + reach + glm::vec3(lean, 0.0f, 0.0f));
   }
@@ -79,17 +81,19 @@ HeroGeometry heroFilaments(const HeroForm& form, std::uint32_t seed) {
   const float bend = 1.05f * law::kHeroBend;
   int at = 0;
   for (int b = 0; b < g.count; ++b) {
-    const float along = half * glm::mix(-0.25f, 0.9f, (static_cast<float>(b) + dice(0.0f, 1.0f)) / static_cast<float>(g.count));
+    const float along =
+        half * glm::mix(-0.3f, 1.0f, (static_cast<float>(b) + dice(0.0f, 1.0f)) / static_cast<float>(g.count));
     const glm::vec3 head(along, half * form.breadth * dice(-0.85f, 0.85f), deep * dice(0.82f, 0.94f));
-    const float size = dice(0.6f, 1.25f), curve = dice(0.42f, 0.7f) * half / (deep * deep);
-    const float tuft = 170.0f * size;
+    const float size = dice(0.6f, 1.2f), curve = dice(0.5f, 0.8f) * form.width / (deep * deep);
+    const float tuft = 0.016f * form.width * size;
     glm::vec3 low = head - 2.7f * tuft, high = head + 2.7f * tuft;
     const int first = at;
     at += 2;
     for (int k = 0; k < law::kHeroStrands; ++k) {
-      const glm::vec3 from = head + glm::vec3(dice(-1.1f, 1.1f), dice(-1.0f, 1.0f), dice(-0.35f, 0.2f)) * tuft;
-      const float fall = std::min(deep * dice(0.35f, 0.9f) * size, from.z);
-      const float bent = curve * dice(0.8f, 1.2f), width = dice(28.0f, 62.0f), strength = dice(0.25f, 0.75f);
+      const glm::vec3 from = head + glm::vec3(dice(-1.6f, 1.6f), dice(-2.2f, 2.2f), dice(-0.4f, 0.3f)) * tuft;
+      const float fall = std::min(deep * dice(0.35f, 1.0f) * size, from.z);
+      const float bent = curve * dice(0.86f, 1.14f), width = form.width * dice(0.0026f, 0.0055f);
+      const float strength = dice(0.2f, 0.7f);
       g.parts.part[at] = glm::vec4(from, fall);
       g.parts.part[at + 1] = glm::vec4(bent, width, strength, 0.0f);
       at += 2;

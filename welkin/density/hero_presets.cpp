@@ -15,8 +15,16 @@ void makeIce(HeroCloud& cloud) {
 Hero humilis(Hero h) {
   h.cloud.position.z = 1000.0;
   h.cloud.extinction = 0.15f;
-  h.form = {.width = 420.0f, .breadth = 0.69f, .height = 140.0f, .parts = 12, .towerRadius = 0.145f, .rimRadius = 0.07f,
-            .rimHeight = 0.45f, .waist = 0.0f, .lean = 0.0f, .pucks = 5};
+  h.form = {.width = 420.0f,
+            .breadth = 0.69f,
+            .height = 140.0f,
+            .parts = 12,
+            .towerRadius = 0.145f,
+            .rimRadius = 0.07f,
+            .rimHeight = 0.45f,
+            .waist = 0.0f,
+            .lean = 0.0f,
+            .pucks = 5};
   h.surface.gain = 0.95f;
   h.surface.octaves = 5;
   h.surface.edge = 6.0f;
@@ -27,8 +35,16 @@ Hero humilis(Hero h) {
 Hero mediocris(Hero h) {
   h.cloud.position.z = 1100.0;
   h.cloud.extinction = 0.16f;
-  h.form = {.width = 900.0f, .breadth = 0.69f, .height = 750.0f, .parts = 11, .towerRadius = 0.17f, .rimRadius = 0.1f,
-            .rimHeight = 0.3f, .waist = 0.06f, .lean = 0.03f, .pucks = 4};
+  h.form = {.width = 900.0f,
+            .breadth = 0.69f,
+            .height = 750.0f,
+            .parts = 11,
+            .towerRadius = 0.17f,
+            .rimRadius = 0.1f,
+            .rimHeight = 0.3f,
+            .waist = 0.06f,
+            .lean = 0.03f,
+            .pucks = 4};
   h.surface.edge = 10.0f;
   h.surface.taper = 0.025f;
   return h;
@@ -37,8 +53,15 @@ Hero mediocris(Hero h) {
 Hero calvus(Hero h) {
   h.cloud.extinction = 0.15f;
   h.cloud.updraft = 5.0f;
-  h.form = {.width = 7000.0f, .breadth = 0.75f, .height = 9500.0f, .parts = 13, .towerRadius = 0.23f, .rimRadius = 0.11f,
-            .rimHeight = 0.25f, .waist = 0.08f, .lean = 0.04f};
+  h.form = {.width = 7000.0f,
+            .breadth = 0.75f,
+            .height = 9500.0f,
+            .parts = 13,
+            .towerRadius = 0.23f,
+            .rimRadius = 0.11f,
+            .rimHeight = 0.25f,
+            .waist = 0.08f,
+            .lean = 0.04f};
   h.surface.topEdge = 10.0f;
   h.surface.topBillow = 0.3f;
   return h;
@@ -46,8 +69,17 @@ Hero calvus(Hero h) {
 
 Hero incus(Hero h) {
   h.cloud.updraft = 8.0f;
-  h.form = {.width = 9000.0f, .breadth = 0.75f, .height = 10500.0f, .parts = 13, .towerRadius = 0.2f, .rimRadius = 0.11f,
-            .rimHeight = 0.25f, .waist = 0.1f, .lean = 0.05f, .anvil = 11000.0f, .anvilThickness = 0.11f,
+  h.form = {.width = 9000.0f,
+            .breadth = 0.75f,
+            .height = 10500.0f,
+            .parts = 13,
+            .towerRadius = 0.2f,
+            .rimRadius = 0.11f,
+            .rimHeight = 0.25f,
+            .waist = 0.1f,
+            .lean = 0.05f,
+            .anvil = 11000.0f,
+            .anvilThickness = 0.11f,
             .anvilDensity = 0.015f};
   h.surface.edge = 25.0f;
   return h;
@@ -91,8 +123,16 @@ Hero mammatus(Hero h) {
 Hero castellanus(Hero h) {
   h.cloud.position.z = 3200.0;
   h.cloud.extinction = 0.05f;
-  h.form = {.shape = HeroShape::rows, .width = 4200.0f, .breadth = 0.3f, .height = 520.0f, .parts = 13,
-            .towerRadius = 0.031f, .rimRadius = 0.014f, .rimHeight = 0.3f, .waist = 0.05f, .lean = 0.05f};
+  h.form = {.shape = HeroShape::rows,
+            .width = 4200.0f,
+            .breadth = 0.3f,
+            .height = 520.0f,
+            .parts = 13,
+            .towerRadius = 0.031f,
+            .rimRadius = 0.014f,
+            .rimHeight = 0.3f,
+            .waist = 0.05f,
+            .lean = 0.05f};
   h.surface.billowSize = 0.09f;
   h.surface.edge = 9.0f;
   h.surface.taper = 0.008f;
@@ -107,16 +147,26 @@ Hero heroPreset(HeroSpecies species) {
   Hero plain;
   plain.cloud.species = species;
   switch (species) {
-    case HeroSpecies::humilis: return humilis(plain);
-    case HeroSpecies::mediocris: return mediocris(plain);
-    case HeroSpecies::congestus: return plain;
-    case HeroSpecies::calvus: return calvus(plain);
-    case HeroSpecies::incus: return incus(plain);
-    case HeroSpecies::lenticularis: return lenticularis(plain);
-    case HeroSpecies::stratus_fractus: return stratusFractus(plain);
-    case HeroSpecies::cirrus_uncinus: return cirrusUncinus(plain);
-    case HeroSpecies::mammatus: return mammatus(plain);
-    case HeroSpecies::altocumulus_castellanus: return castellanus(plain);
+    case HeroSpecies::humilis:
+      return humilis(plain);
+    case HeroSpecies::mediocris:
+      return mediocris(plain);
+    case HeroSpecies::congestus:
+      return plain;
+    case HeroSpecies::calvus:
+      return calvus(plain);
+    case HeroSpecies::incus:
+      return incus(plain);
+    case HeroSpecies::lenticularis:
+      return lenticularis(plain);
+    case HeroSpecies::stratus_fractus:
+      return stratusFractus(plain);
+    case HeroSpecies::cirrus_uncinus:
+      return cirrusUncinus(plain);
+    case HeroSpecies::mammatus:
+      return mammatus(plain);
+    case HeroSpecies::altocumulus_castellanus:
+      return castellanus(plain);
   }
   return plain;
 }

@@ -10,7 +10,7 @@ namespace welkin {
 namespace {
 
 constexpr float kMostBalls = 40.0f;  // of a tower
-constexpr float kJoint = 0.02f;  // width of the joint between balls, as a share of the size
+constexpr float kJoint = 0.02f;      // width of the joint between balls, as a share of the size
 
 // Balls stacked up to `height` over a place, each a little aside. `grown` is the share of the height that the tower has
 // reached; its balls rise and swell, and their number stays.
@@ -37,8 +37,10 @@ void addCluster(HeroSolid& s, const HeroLife& life, HeroDice& dice) {
   const float turn = dice(0.0f, 6.2831853f), narrow = glm::mix(0.35f, 1.0f, life.growth);
   for (int i = 0; i < form.parts; ++i) {
     // Sunflower: even, and as many as one likes.
-    const float rim = i == 0 ? 0.0f : std::sqrt((static_cast<float>(i) + dice(-0.3f, 0.3f)) /
-                                                static_cast<float>(std::max(form.parts - 1, 1)));
+    const float rim =
+        i == 0
+            ? 0.0f
+            : std::sqrt((static_cast<float>(i) + dice(-0.3f, 0.3f)) / static_cast<float>(std::max(form.parts - 1, 1)));
     const float e = std::min(rim, 1.0f), angle = turn + 2.3999632f * static_cast<float>(i) + dice(-0.25f, 0.25f);
     const float radius = form.width * glm::mix(form.towerRadius, form.rimRadius, e) * dice(0.85f, 1.12f);
     const float height = form.height * glm::mix(1.0f, form.rimHeight, e) * (i == 0 ? 1.0f : dice(0.7f, 1.02f));
@@ -50,7 +52,8 @@ void addCluster(HeroSolid& s, const HeroLife& life, HeroDice& dice) {
              s.balls);
   }
   for (int i = 0; i < form.pucks; ++i) {
-    const float angle = turn + 6.2831853f * (static_cast<float>(i) + dice(-0.2f, 0.2f)) / static_cast<float>(form.pucks);
+    const float angle =
+        turn + 6.2831853f * (static_cast<float>(i) + dice(-0.2f, 0.2f)) / static_cast<float>(form.pucks);
     const float radius = dice(0.2f, 0.3f) * form.width;
     const glm::vec2 room = glm::max(glm::vec2(0.5f, 0.5f * form.breadth) * form.width - radius, glm::vec2(0.0f));
     const float flat = narrow * dice(0.6f, 1.0f);
@@ -68,22 +71,24 @@ void addRows(HeroSolid& s, const HeroLife& life, HeroDice& dice) {
     const auto across = [&](float x) {
       return static_cast<float>(row) * apart + 0.08f * form.width * form.breadth * std::sin(5.0f * x / half + phase);
     };
-    const int banks = 9;
+    const int banks = 15;
     for (int i = 0; i < banks; ++i) {
-      const float x = half * (2.0f * (static_cast<float>(i) + dice(0.1f, 0.9f)) / banks - 1.0f) * 0.92f;
-      const float radius = dice(0.8f, 1.9f) * form.towerRadius * form.width;
-      s.pucks.emplace_back(x, across(x) + dice(-0.5f, 0.5f) * radius, 0.12f * radius, radius);
+      const float x = half * (2.0f * (static_cast<float>(i) + dice(0.1f, 0.9f)) / banks - 1.0f) * 0.95f;
+      const float radius = dice(1.3f, 2.6f) * form.towerRadius * form.width;
+      s.pucks.emplace_back(x, across(x) + dice(-0.4f, 0.4f) * radius, 0.14f * radius, radius);
     }
     const int turrets = (form.parts + (row > 0 ? 1 : 0)) / 2;
     for (int i = 0; i < turrets; ++i) {
-      const float x = half * (2.0f * (static_cast<float>(i) + dice(0.0f, 1.0f)) / static_cast<float>(turrets) - 1.0f) * 0.9f;
+      const float x =
+          half * (2.0f * (static_cast<float>(i) + dice(0.0f, 1.0f)) / static_cast<float>(turrets) - 1.0f) * 0.9f;
       const float tall = dice(0.0f, 1.0f), slim = dice(0.0f, 1.0f);
       const float radius = form.width * glm::mix(form.towerRadius, form.rimRadius, slim);
       const float height = form.height * glm::mix(form.rimHeight, 1.0f, tall * tall);
       const float start = dice(0.0f, 0.18f);
       const float grown = glm::mix(0.3f, 1.0f, law::smoothstep(start, start + 0.32f, life.age));
       addTower(form, {x, across(x)}, radius, height, grown, dice, s.balls);
-      if (slim < 0.5f) addTower(form, {x + 1.3f * radius, across(x)}, 0.7f * radius, 0.6f * height, grown, dice, s.balls);
+      if (slim < 0.5f)
+        addTower(form, {x + 1.3f * radius, across(x)}, 0.7f * radius, 0.6f * height, grown, dice, s.balls);
     }
   }
 }

@@ -26,8 +26,8 @@ class HeroDice {
 // What an age means, each from 0 to 1.
 struct HeroLife {
   float age = 0.75f;
-  float growth = 1.0f;   // of its size
-  float spread = 1.0f;   // of the anvil
+  float growth = 1.0f;  // of its size
+  float spread = 1.0f;  // of the anvil
   float decay = 0.0f;
   float density = 1.0f;
 };

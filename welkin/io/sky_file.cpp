@@ -162,9 +162,9 @@ class Reader {
         readChild(path, key, node);
     };
     // Presets first, whatever else stands in the table wins.
-    const char* preset = path == "quality"                                         ? "preset"
+    const char* preset = path == "quality"                                        ? "preset"
                          : path.starts_with("hero.") && tableName(path) == "hero" ? "species"
-                                                                                   : "";
+                                                                                  : "";
     if (*preset && table.contains(preset)) readValue(*section, *findField(*section, preset), *table.get(preset));
     for (auto&& [key, node] : table)
       if (key != preset) readKey(key, node);
@@ -271,10 +271,9 @@ std::string writeSky(const Scene& original) {
       if (value != (follows ? f.get(preset) : f.defaultValue))
         rows += fmt::format("{} = {}\n", f.name, formatValue(f, value));
     }
-    const bool element =
-        std::count(section.path.begin(), section.path.end(), '.') == 1 &&
-        (section.path.starts_with("layer.") || section.path.starts_with("sheet.") ||
-         section.path.starts_with("grid.") || section.path.starts_with("hero."));
+    const bool element = std::count(section.path.begin(), section.path.end(), '.') == 1 &&
+                         (section.path.starts_with("layer.") || section.path.starts_with("sheet.") ||
+                          section.path.starts_with("grid.") || section.path.starts_with("hero."));
     if (section.path.empty())
       out += rows + (scene.layers.empty() && noLists ? "layer = []\n" : "");
     else if (element)
