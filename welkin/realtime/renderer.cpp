@@ -80,6 +80,7 @@ struct View::State {
   int scene = 0;    // which of the renderer's scenes it shows
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
+  glm::dvec2 travel{0.0};  // of the picture over the history's grid (frame_params.hpp), pixels
   double lastTime = 0.0;
   float exposure = 1.0f;  // factor on what the history holds
   law::HostParams host{};
@@ -95,6 +96,7 @@ void View::reset() {
   state_->frames = 0;
   state_->still = 0;
   state_->last.reset();
+  state_->travel = glm::dvec2(0.0);
 }
 
 struct Renderer::State {
@@ -364,6 +366,7 @@ void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
   view.interleave = interleave;
   view.frames = view.still = 0;
   view.last.reset();
+  view.travel = glm::dvec2(0.0);
 }
 
 void Renderer::State::skyPass(const glm::dvec3& position) {
@@ -649,6 +652,8 @@ void Renderer::render(View& view, const Frame& frame) {
   params.wind.w *= v.exposure;
   params.options.x = 1.0f / v.exposure;
   if (v.last && v.last->options.z != params.options.z) view.reset();
+  if (v.last) v.travel += travelled(params, *v.last);
+  lockGrid(params, v.travel);
   const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != glm::dvec3(place, position.z) ||
                      v.lastTime != frame.time || v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
@@ -656,7 +661,8 @@ void Renderer::render(View& view, const Frame& frame) {
   const bool begun = v.still == v.frames && v.frames < turns;
   const History history = v.frames == 0 || !s.scene.quality.reprojection ? History::none
                           : begun                                        ? History::begun
-                                                                         : History::picture;
+                          : v.still > 0                                  ? History::still
+                                                                         : History::moved;
   setHistory(params, v.last ? &*v.last : nullptr, glm::dvec3(place, position.z) - v.lastPosition,
              driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), history,
              1.0f / static_cast<float>(round + 1));
