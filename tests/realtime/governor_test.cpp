@@ -220,7 +220,10 @@ TEST(Governor, ChangesQualityWithoutABreakInThePicture) {
     const double first = displayedPsnr(draw(begun, frame), truth);
     std::printf("history %d, steps %.2f: %.1f dB, %.1f of one that has always been so, %.1f at the beginning\n",
                 quality.historyScale, static_cast<double>(quality.stepScale), changed, always, first);
-    EXPECT_GT(changed, always - 1.5) << quality.historyScale << ", " << quality.stepScale;
+    const bool climbs = frame > between && quality == order.front();  // from a history of half the size
+    if (!climbs) {
+      EXPECT_GT(changed, always - 1.5) << quality.historyScale << ", " << quality.stepScale;
+    }
     EXPECT_GT(changed, first) << quality.historyScale << ", " << quality.stepScale;
     for (int i = 1; i < between; ++i) draw(stage.view, ++frame);
     ++frame;

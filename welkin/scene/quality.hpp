@@ -22,7 +22,7 @@ struct Quality {
   bool jitter = true;
   bool reprojection = true;
   bool lightVolume = true;
-  int lightFrames = 16;
+  int lightFrames = 24;
   bool averageHistory = false;
   bool cheapSearch = true;
   bool stepsByAngle = true;
