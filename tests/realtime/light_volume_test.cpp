@@ -128,6 +128,28 @@ TEST(LightVolume, KeepsUpWithASunThatNeverStands) {
   EXPECT_GT(lag, change + 6.0);
 }
 
+// Clouds that change all the time: weather and light come after, and stand still soon after them.
+TEST(LightVolume, KeepsUpWithCloudsThatNeverStand) {
+  Stage stage(48, 27);
+  Scene scene = cumulus();
+  const Image then = stage.draw(scene);
+  const float start = scene.layers[0].weather.coverage;
+  Image last;
+  for (int i = 1; i <= 60; ++i) {
+    scene.layers[0].weather.coverage = start + 0.002f * static_cast<float>(i);
+    stage.sky->setScene(scene);
+    last = stage.draw(stage.view, stage.frame(scene));
+  }
+  const Frame frame = stage.frame(scene);
+  scene.quality.lightFrames = 1;
+  Stage other(48, 27);
+  const Image now = other.draw(scene);
+  const double lag = displayedPsnr(last, now), change = displayedPsnr(then, now);
+  std::printf("%.1f dB off, the whole change is %.1f dB\n", lag, change);
+  EXPECT_GT(lag, change + 3.0);
+  EXPECT_GT(framesUntil(stage, frame, now, 90), 0);
+}
+
 double lightMilliseconds(Renderer& sky) {
   for (const PassCost& pass : sky.lastCost().passes)
     if (pass.name == "light volume") return pass.milliseconds;

@@ -119,6 +119,12 @@ bool LightVolume::stale() const {
   return job_.has_value();
 }
 
+bool LightVolume::lost() const {
+  for (int i = 0; i < extent_.levels; ++i)
+    if (useless(i)) return true;
+  return false;
+}
+
 law::LightVolumeParams LightVolume::params() const {
   law::LightVolumeParams p{};
   p.levels.count = extent_.levels;
@@ -155,11 +161,7 @@ LightVolume::Job LightVolume::nextJob() {
 }
 
 void LightVolume::draw(const gl::Program& density, gl::Framebuffer& framebuffer, int frames) {
-  const auto mustNow = [&] {
-    for (int i = 0; i < extent_.levels; ++i)
-      if (frames <= 1 ? outOfDate(i) : useless(i)) return true;
-    return false;
-  };
+  const auto mustNow = [&] { return lost() || (frames <= 1 && stale()); };
   if (mustNow()) {
     job_.reset();
     last_ = 0;

@@ -28,6 +28,8 @@ class LightVolume {
   void forget();
   // Whether draw() has anything to do.
   bool stale() const;
+  // Whether there is a level without light that is of any use.
+  bool lost() const;
   // Makes what place() has found out of date, a share of a level with each call; `frames` calls for a level, 1: all of
   // it at once. A level keeps its old light until the new one is complete; one that has none of use is made at once.
   // `density`: shaders/light_density.frag.glsl with the clouds' blocks and textures bound, on units below 10. Leaves

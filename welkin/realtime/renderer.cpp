@@ -29,6 +29,7 @@ namespace welkin::realtime {
 namespace {
 
 constexpr int kBlueNoiseSize = 64;
+constexpr int kMostWait = 16;  // frames
 constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
 // The uniform block "Layers" of the passes that march through clouds.
@@ -208,7 +209,7 @@ struct Renderer::State {
 
   // The passes, in order.
   void skyPass(const glm::dvec3& position);
-  void weatherPass(const glm::dvec2& place, const Drift& drift);
+  void weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift);
   void lightPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
                  const FrameParams& params);
   void marchPass(View::State& view, const Frame& frame);
@@ -360,10 +361,12 @@ bool Renderer::State::lit() const {
 void Renderer::State::surround(View::State& view, const glm::dvec2& place) {
   around = view.around = pool.of(view.eye, view.around, place);
   if (around->weatherNumber != weatherNumber) {
-    around->weather.reset();
-    if (!scene.layers.empty())
-      around->weather = std::make_unique<WeatherLevels>(gl, weatherExtent(scene.quality.preset),
-                                                        static_cast<int>(scene.layers.size()));
+    const WeatherExtent extent = weatherExtent(scene.quality.preset);
+    const int layers = static_cast<int>(scene.layers.size());
+    if (around->weather && around->skyNumber == skyNumber && around->weather->fits(extent, layers))
+      around->weather->change();
+    else
+      around->weather = layers > 0 ? std::make_unique<WeatherLevels>(gl, extent, layers) : nullptr;
     around->weatherNumber = weatherNumber;
   }
   if (!lit())
@@ -424,10 +427,16 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
   sky.update(scene.atmosphere, heavens.lights, std::max(altitude, 0.0), scene.ground.albedo, userSky.get());
 }
 
-void Renderer::State::weatherPass(const glm::dvec2& place, const Drift& drift) {
+void Renderer::State::weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift) {
+  if (!weather) return;
+  const bool changing = weather->changing();
+  // After a cut nobody has seen the old weather.
+  const int most = view.frames == 0 ? WeatherLevels::kAll : 1;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     weather->update(static_cast<int>(i), scene.layers[i], place, drift, scene.seed, weatherProgram, framebuffer,
-                    weatherBuffer, maps[i] ? maps[i] : white);
+                    weatherBuffer, maps[i] ? maps[i] : white, most);
+  // Light that has been made among both must be made again.
+  if (changing && !weather->changing()) ++cloudsNumber;
 }
 
 // What the passes that march need to know, and the volume of light.
@@ -456,12 +465,14 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     block.volume = light->params();
   }
   layersBuffer.upload(&block, sizeof block);
-  if (light && light->stale() && !view.lightDrawn) {
+  // Light follows weather that changes, or goes along when that has no end.
+  around->waited = weather && weather->changing() ? around->waited + 1 : 0;
+  const bool waits = around->waited > 0 && around->waited <= kMostWait && view.frames > 0 && light && !light->lost();
+  if (light && light->stale() && !view.lightDrawn && !waits) {
     gl.UseProgram(lightProgram.id());
     lightProgram.bindBlock("Layers", kLayersBlock);
     layersBuffer.bind(kLayersBlock);
     bindClouds(lightProgram, 0);
-    // After a cut nobody has seen the old light.
     light->draw(lightProgram, framebuffer, view.frames == 0 ? 1 : scene.quality.lightFrames);
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
@@ -643,7 +654,7 @@ void Renderer::prepare(View& view, const Frame& frame) {
       frameParams(frame, std::max(v.width, 1), std::max(v.height, 1), std::max(v.interleave, 1), s.scene.quality, 0);
   s.surround(v, place);
   s.skyPass(position);
-  s.weatherPass(place, drift);
+  s.weatherPass(v, place, drift);
   s.lightPass(v, frame, position, drift, params);
   v.lightDrawn = true;
   s.keepForHost(v, frame, params);
@@ -729,7 +740,7 @@ void Renderer::render(View& view, const Frame& frame) {
   s.lightningOf(place, frame.time);
   s.skyPass(position);
   s.timers.mark("sky tables");
-  s.weatherPass(place, drift);
+  s.weatherPass(v, place, drift);
   s.timers.mark("weather");
   s.lightPass(v, frame, position, drift, params);
   v.lightDrawn = false;

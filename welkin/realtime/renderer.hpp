@@ -56,7 +56,8 @@ class View {
   ~View();
   View(View&&) noexcept;
   View& operator=(View&&) noexcept;
-  // Forgets what it has seen: call it after a cut.
+  // Forgets what it has seen: call it after a cut. The next frame waits for weather and light that are complete,
+  // however long that takes; other frames spread such work (quality.light_frames).
   void reset();
 
  private:

@@ -18,6 +18,7 @@ struct Surroundings {
   std::unique_ptr<WeatherLevels> weather;
   std::unique_ptr<LightVolume> light;
   int weatherNumber = -1, skyNumber = -1;  // of the renderer's, for which they were made
+  int waited = 0;                          // frames in which the light has waited for changing weather
   std::vector<std::weak_ptr<const Eye>> eyes;
 };
 
