@@ -34,7 +34,8 @@ struct FieldTable<Quality> {
   static auto make() {
     return fieldRows(
         field<&Quality::preset>("preset", "sets every other value of this table; values given besides it win"),
-        field<&Quality::historyScale>("history_scale", {1, 2, 3, 4}, "pixels of the picture to one of the cloud history"),
+        field<&Quality::historyScale>("history_scale", {1, 2, 3, 4},
+                                      "pixels of the picture to one of the cloud history"),
         field<&Quality::interleave>("interleave", {1, 2, 4}, "each frame marches one pixel in a block of this edge"),
         field<&Quality::stepScale>("step_scale", {0.05, 20}, {0.25, 4}, "length of the march's steps, as a multiple"),
         field<&Quality::lightSteps>("light_steps", {1, 16}, {},
