@@ -14,7 +14,7 @@ namespace {
 // Shares of a frame of quality high, fitted to what the rungs cost on bench/governor.cpp's flight (llvmpipe): the
 // march, where each near step toward the sun costs kPerLightStep of a point and longer steps save less than they skip;
 // and what every pixel of the history and of the picture costs.
-constexpr double kMarch = 0.65, kHistory = 0.15, kPicture = 0.2, kPerLightStep = 0.12, kStepPower = 0.55;
+constexpr double kMarch = 0.7, kHistory = 0.18, kPicture = 0.12, kPerLightStep = 0.12, kStepPower = 0.55;
 
 constexpr int kCutFrames = 4;        // after a cut
 constexpr int kLag = 3;              // frames after a change whose times may still be of those before

@@ -192,6 +192,8 @@ struct Renderer::State {
   void makeWeather(const Scene& next, const CustomTextures& custom);
   void makeGrids(const Scene& next, const CustomTextures& custom);
   bool lit() const;
+  // Over how many frames weather and light may come; after a cut nobody has seen the old ones.
+  int framesOf(const View::State& view) const { return view.frames == 0 ? 1 : scene.quality.lightFrames; }
   void surround(View::State& view, const glm::dvec2& place);
   void makeMarch();
   void bindClouds(const gl::Program& program, int unit) const;
@@ -430,8 +432,7 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
 void Renderer::State::weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift) {
   if (!weather) return;
   const bool changing = weather->changing();
-  // After a cut nobody has seen the old weather.
-  const int most = view.frames == 0 ? WeatherLevels::kAll : 1;
+  const int most = framesOf(view) == 1 ? WeatherLevels::kAll : 1;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     weather->update(static_cast<int>(i), scene.layers[i], place, drift, scene.seed, weatherProgram, framebuffer,
                     weatherBuffer, maps[i] ? maps[i] : white, most);
@@ -467,13 +468,13 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
   layersBuffer.upload(&block, sizeof block);
   // Light follows weather that changes, or goes along when that has no end.
   around->waited = weather && weather->changing() ? around->waited + 1 : 0;
-  const bool waits = around->waited > 0 && around->waited <= kMostWait && view.frames > 0 && light && !light->lost();
+  const bool waits = around->waited > 0 && around->waited <= kMostWait && framesOf(view) > 1 && light && !light->lost();
   if (light && light->stale() && !view.lightDrawn && !waits) {
     gl.UseProgram(lightProgram.id());
     lightProgram.bindBlock("Layers", kLayersBlock);
     layersBuffer.bind(kLayersBlock);
     bindClouds(lightProgram, 0);
-    light->draw(lightProgram, framebuffer, view.frames == 0 ? 1 : scene.quality.lightFrames);
+    light->draw(lightProgram, framebuffer, framesOf(view));
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
   }
