@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 
 #include "welkin/density/params.hpp"
 #include "welkin/realtime/shader_sources.hpp"
@@ -50,6 +49,7 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
                        gl::Addressing::clamp, nullptr);
   };
   density_ = volume(gl::kRg16F, 1);
+  sheets_ = plane(gl::kRgba16F);
   sun_ = volume(gl::kR16F, extent_.levels);
   diffuse_ = volume(gl::kRg16F, extent_.levels);
   share_ = volume(gl::kR16F, 1);
@@ -62,6 +62,7 @@ std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() 
   return {{"light volume: sun", &sun_},
           {"light volume: diffuse", &diffuse_},
           {"light volume: density", &density_},
+          {"light volume: sheets", &sheets_},
           {"light volume: share", &share_},
           {"light volume: steps", &steps_},
           {"light volume: slice a", &scalarSlice_[0]},
@@ -114,14 +115,16 @@ glm::vec4 LightVolume::square(const glm::dvec2& centre, int level, float w) cons
   return {glm::vec2(centre - inAir_), static_cast<float>(extent_.edge(level)), w};
 }
 
-void LightVolume::draw(const gl::Program& density, gl::Framebuffer& framebuffer) {
+void LightVolume::draw(const gl::Program& density, const gl::Program& sheets, const glm::vec4& sheetHeights,
+                       gl::Framebuffer& framebuffer) {
   block_.upload(&params_, sizeof params_);
   block_.bind(kBlockBinding);
   for (int i = extent_.levels - 1; i >= 0; --i) {
     Level& level = levels_[static_cast<std::size_t>(i)];
     if (level.fresh) continue;
     fillDensity(density, framebuffer, i);
-    fillSun(framebuffer, i);
+    if (sheets.id()) fillSheets(sheets, framebuffer, i);
+    fillSun(sheets.id() ? sheetHeights : glm::vec4(-1e9f), framebuffer, i);
     fillDiffuse(framebuffer, i);
     level.fresh = level.known = true;
     level.before = level.centre;
@@ -169,15 +172,31 @@ void LightVolume::fillDensity(const gl::Program& program, gl::Framebuffer& frame
   }
 }
 
-void LightVolume::fillSun(gl::Framebuffer& framebuffer, int level) {
+// The sun's direction as these passes take it.
+void LightVolume::sunUniform(const gl::Program& program) const {
+  gl_.Uniform4f(program.uniform("uSunward"), sunward_.x, sunward_.y, sunward_.z, kLeastSlant);
+}
+
+void LightVolume::fillSheets(const gl::Program& program, gl::Framebuffer& framebuffer, int level) {
+  use(program, level);
+  sunUniform(program);
+  gl_.Uniform1f(program.uniform("uTop"), shell_.top);
+  const gl::Texture* const targets[] = {&sheets_};
+  framebuffer.target(targets);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void LightVolume::fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& framebuffer, int level) {
   use(sunPass_, level);
+  bind(sunPass_, "uSheets", sheets_, kUnits + 4);
+  gl_.Uniform4f(sunPass_.uniform("uSheetHeights"), sheetHeights.x, sheetHeights.y, sheetHeights.z, sheetHeights.w);
   const float height = shell_.top - shell_.bottom, slice = height / static_cast<float>(slices_);
   const float edge = static_cast<float>(extent_.edge(level)), texel = edge / static_cast<float>(extent_.texels);
   const float rise = std::max(sunward_.z, kLeastSlant), across = std::max(glm::length(glm::vec2(sunward_)), 1e-3f);
   const float step = std::min(slice / rise, texel / across);
   const float longest = std::min(height / rise, 1.42f * edge / across);
   const int doublings = static_cast<int>(std::ceil(std::log2(std::max(longest / step, 2.0f))));
-  gl_.Uniform4f(sunPass_.uniform("uSunward"), sunward_.x, sunward_.y, sunward_.z, kLeastSlant);
+  sunUniform(sunPass_);
   gl_.Uniform1i(sunPass_.uniform("uCoarsest"), level == extent_.levels - 1 ? 1 : 0);
   for (int i = 0; i <= doublings; ++i) {
     const bool last = i == doublings;

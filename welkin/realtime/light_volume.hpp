@@ -5,6 +5,7 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,10 @@ class LightVolume {
   bool stale() const;
   // Makes what place() has found out of date, coarse levels first. `density`: shaders/light_density.frag.glsl with the
   // clouds' blocks and textures bound, on units below 10. Leaves framebuffer, program and viewport changed.
-  void draw(const gl::Program& density, gl::Framebuffer& framebuffer);
+  // `sheets`: shaders/light_sheets.frag.glsl with the same blocks, where there are sheets, whose heights (m) the vector
+  // gives.
+  void draw(const gl::Program& density, const gl::Program& sheets, const glm::vec4& sheetHeights,
+            gl::Framebuffer& framebuffer);
 
   QualityPreset preset() const { return preset_; }
   const gl::Texture& sun() const { return sun_; }          // optical depth toward the sun
@@ -42,9 +46,11 @@ class LightVolume {
     bool fresh = false, known = false;
   };
   void fillDensity(const gl::Program& program, gl::Framebuffer& framebuffer, int level);
-  void fillSun(gl::Framebuffer& framebuffer, int level);
+  void fillSheets(const gl::Program& program, gl::Framebuffer& framebuffer, int level);
+  void fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& framebuffer, int level);
   void fillDiffuse(gl::Framebuffer& framebuffer, int level);
   void use(const gl::Program& program, int level);
+  void sunUniform(const gl::Program& program) const;
   void slice(const gl::Program& program, int number) const;
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const;
   void copy(int target, const gl::Texture& to, int slice) const;
@@ -55,6 +61,7 @@ class LightVolume {
   WeatherExtent extent_;  // squares and their texels
   int slices_;            // of a level, from the bottom of the clouds to their top
   gl::Texture density_, sun_, diffuse_;
+  gl::Texture sheets_;         // light_sheets.frag.glsl
   gl::Texture share_, steps_;  // light_diffusion.frag.glsl and light_sun.frag.glsl, which uses both by turns
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
   gl::Program sunPass_, startPass_, diffusionPass_, columnPass_;

@@ -117,7 +117,7 @@ struct Renderer::State {
   GridAtlas grids;
   std::vector<PlacedGrid> placedGrids;  // that it was made of
   float gridExtinction = 0.0f;          // their greatest, 1/m
-  gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
+  gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
@@ -264,9 +264,14 @@ void Renderer::State::makeMarch() {
                               (light ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
   if (text == marchDefines) return;
-  if (light)
+  if (light) {
     lightProgram = gl::Program(gl, "light density", clouds, fileText("welkin/realtime/shaders/light_density.frag.glsl"),
                                shaderSource);
+    sheetProgram = scene.sheets.empty()
+                       ? gl::Program()
+                       : gl::Program(gl, "light sheets", clouds,
+                                     fileText("welkin/realtime/shaders/light_sheets.frag.glsl"), shaderSource);
+  }
   march = gl::Program(gl, "march", text, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
   marchDefines = text;
 }
@@ -406,7 +411,10 @@ void Renderer::State::lightPass(const Frame& frame, const glm::dvec3& position, 
   lightProgram.bindBlock("Layers", kLayersBlock);
   layersBuffer.bind(kLayersBlock);
   bindClouds(lightProgram, 0);
-  light->draw(lightProgram, framebuffer);
+  if (sheetProgram.id()) sheetProgram.bindBlock("Layers", kLayersBlock);
+  glm::vec4 heights(-1e9f);
+  for (std::size_t i = 0; i < scene.sheets.size(); ++i) heights[static_cast<int>(i)] = scene.sheets[i].height;
+  light->draw(lightProgram, sheetProgram, heights, framebuffer);
 }
 
 void Renderer::State::bindClouds(const gl::Program& program, int unit) const {
