@@ -160,7 +160,9 @@ struct Renderer::State {
            sameFields(scene.noise.profile, next.noise.profile) &&
            sameFields(scene.noise.baseShape, next.noise.baseShape) &&
            sameFields(scene.noise.detail, next.noise.detail) && sameFields(scene.noise.curl, next.noise.curl) &&
-           std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameLayer);
+           std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameLayer) &&
+           std::equal(scene.sheets.begin(), scene.sheets.end(), next.sheets.begin(), next.sheets.end(),
+                      [](const Sheet& a, const Sheet& b) { return sameFields(a, b); });
   }
 
   static bool uses(const Scene& sky, LayerShape shape) {
