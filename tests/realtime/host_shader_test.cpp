@@ -250,6 +250,41 @@ TEST(SunShare, OfTheCpuIsThatOfTheShader) {
   EXPECT_FLOAT_EQ(static_cast<float>(kTurnedAside), law::kReduced);
 }
 
+// A sheet above dims them too.
+TEST(SunShare, SheetsAboveTakeTheirPart) {
+  Stage stage(kWidth, kHeight);
+  Scene scene = plainScene(LayerShape::profile);
+  Sheet sheet;
+  sheet.kind = SheetKind::cirrostratus;
+  sheet.opticalDepth = 2.0f;
+  sheet.coverage = 1.0f;
+  scene.sheets = {sheet};
+  HostPass pass(stage.gl, "answer = vec4(welkinSunShare(vec3((vUv - 0.5) * vec2(8000.0, 4500.0), -uNumbers.x)));");
+  const auto share = [&](const Scene& sky, glm::vec3& toSun) {
+    stage.sky->setScene(sky);
+    Frame frame = stage.frame(sky);
+    View view;
+    stage.sky->prepare(view, frame);
+    toSun = stage.sky->outputs(view).toSun;
+    return pass.draw(*stage.sky, view, frame, 150.0f);
+  };
+  glm::vec3 toSun;
+  const Image under = share(scene, toSun);
+  const law::SheetParams params = sheetParams(sheet, glm::dvec2(0.0), 0.0, scene.seed);
+  scene.sheets.clear();
+  const Image clear = share(scene, toSun);
+  double least = 1.0;
+  for (int y = 0; y < kHeight; y += 2)
+    for (int x = 0; x < kWidth; x += 2) {
+      const glm::vec2 p(((x + 0.5f) / kWidth - 0.5f) * 8000.0f, (0.5f - (y + 0.5f) / kHeight) * 4500.0f);
+      const float depth =
+          law::sheetDepthToward(p, sheet.height, toSun, toSun.z, static_cast<float>(1.0 / kPlanetRadius), params);
+      EXPECT_NEAR(under.at(x, y)[0], clear.at(x, y)[0] * std::exp(-depth), 0.02) << x << " " << y;
+      least = std::min(least, std::exp(-static_cast<double>(depth)));
+    }
+  EXPECT_LT(least, 0.75);
+}
+
 TEST(HostAxes, TheIncludeTakesBothUps) {
   Stage stage(kWidth, kHeight);
   Scene scene = cumulus();
