@@ -1,0 +1,61 @@
+#pragma once
+// The sky in the window: drawn at a resolution that keeps up while something moves, and at the window's own once
+// nothing does.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "welkin/base/image.hpp"
+#include "welkin/gl/loader.hpp"
+#include "welkin/realtime/renderer.hpp"
+#include "welkin/scene/scene.hpp"
+
+namespace welkin::viewer {
+
+// A rectangle of the window in pixels; y counts from the lower edge, as OpenGL's does.
+struct Region {
+  int x = 0, y = 0, width = 1, height = 1;
+};
+
+class SkyPicture {
+ public:
+  // The context of `loader` is current. Throws Error (noOpenGl).
+  explicit SkyPicture(const gl::Loader& loader);
+  ~SkyPicture();
+  SkyPicture(const SkyPicture&) = delete;
+  SkyPicture& operator=(const SkyPicture&) = delete;
+
+  // Throws Error (badInput) for what the scene names and cannot be used.
+  void setScene(const Scene& scene, const realtime::CustomTextures& textures);
+
+  // Draws what this frame needs: nothing, when the picture has come to rest. `scale`: of the resolution while something
+  // moves, in (0, 1]. Returns whether it has drawn.
+  bool draw(const Camera& camera, double time, int width, int height, float scale);
+  // Forgets the past, after a cut.
+  void reset();
+  // Nothing more would change.
+  bool settled() const;
+
+  // Tone-maps the picture into a part of a framebuffer. `film.ev` counts, whatever the mode.
+  void show(unsigned framebuffer, const Region& region, const Film& film) const;
+
+  // What a light meter says of the picture (EV100); and its brightness as shares of pixels, `kBins` steps of half a
+  // stop round middle grey at EV 0.
+  double measuredEv() const;
+
+  // The picture on screen: linear, kcd/m^2.
+  Image read() const;
+  // Of the picture drawn last, in pixels.
+  int width() const;
+  int height() const;
+  realtime::FrameCost cost() const;
+  std::vector<realtime::MemoryRow> memory() const;
+  const std::string& driver() const;
+  bool softwareDriver() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace welkin::viewer
