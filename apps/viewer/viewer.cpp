@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "apps/viewer/model/command_line.hpp"
@@ -14,6 +16,7 @@
 #include "apps/viewer/picture/screenshot.hpp"
 #include "apps/viewer/platform/platform.hpp"
 #include "welkin/base/error.hpp"
+#include "welkin/base/tone.hpp"
 #include "welkin/io/file.hpp"
 #include "welkin/io/sky_file.hpp"
 
@@ -24,10 +27,31 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kScriptFrame = 1.0 / 60.0;  // s: scripts count frames
-constexpr int kIdleMilliseconds = 200;
 constexpr std::size_t kLongestScript = 1 << 20, kLongestSky = 1 << 20;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr const char* kSide = "##side";
+
+struct TabInfo {
+  Tab tab;
+  Action action;
+  const char* title;
+  void (*draw)(Workbench& bench);
+};
+constexpr TabInfo kTabs[] = {{Tab::gallery, Action::gallery, "Gallery", drawGallery},
+                             {Tab::parameters, Action::parameters, "Sky", drawParameters},
+                             {Tab::sun, Action::sun, "Sun", drawSun},
+                             {Tab::wind, Action::wind, "Wind", drawWind},
+                             {Tab::camera, Action::camera, "Camera", drawCamera},
+                             {Tab::film, Action::film, "Film", drawFilm},
+                             {Tab::pace, Action::pace, "Pace", drawPace}};
+
+std::optional<Tab> tabOf(Action action) {
+  for (const TabInfo& info : kTabs)
+    if (info.action == action) return info.tab;
+  return std::nullopt;
+}
 
 class Viewer {
  public:
@@ -45,28 +69,35 @@ class Viewer {
   void takeScene();
   void expose(double seconds);
   void command(const ScriptStep& step);
-  void openSky(const std::string& path);
+  void openSky(const std::string& path, const Origin& origin);
+  void savePicture(const std::string& path);
+  void leave();
+  void entitle();
+  void drawTabs();
   void saveSky(const std::string& path);
   void bookmark(int number, bool keep);
-  bool idle() const;
+  bool atRest() const;
+  int patience() const;
   Region region() const;
 
   const ViewerOptions& options_;
   std::unique_ptr<Platform> platform_;
   Interface interface_;
   SkyPicture picture_;
+  gl::Api gl_;
+  Thumbnails thumbnails_;
   Workbench bench_;
   std::optional<ScriptPlayer> script_;
-  gl::Api gl_;
   bool running_ = true, swallowText_ = false;
   int revision_ = -1;
   int lively_ = 3;  // frames to draw before resting
-  std::string texturesOf_;
+  std::string texturesOf_, titled_;
+  int titledRevision_ = -1;
   realtime::CustomTextures textures_;
   glm::vec2 pointer_{0.0f};
   std::optional<MouseButton> dragging_;
   double meteredEv_ = 0.0;
-  bool metered_ = false;
+  bool metered_ = false, adapting_ = false;
   float panelWidth_ = 0.0f;
 };
 
@@ -75,34 +106,54 @@ std::unique_ptr<Platform> openPlatform(const ViewerOptions& options) {
   return options.headless ? openHeadless(window) : openWindow(window);
 }
 
+std::vector<std::string> filesOf(const std::vector<PresetFile>& presets) {
+  std::vector<std::string> files;
+  for (const PresetFile& p : presets) files.push_back(p.file);
+  return files;
+}
+
 Viewer::Viewer(const ViewerOptions& options)
-    : options_(options), platform_(openPlatform(options)), interface_(*platform_),
-      picture_(platform_->loader()), bench_{.options = options,
-                                            .document = Document(options.scene, {options.skyName, options.file}),
-                                            .picture = picture_,
-                                            .interface = interface_},
-      gl_(gl::loadApi(platform_->loader())) {
+    : options_(options), platform_(openPlatform(options)), interface_(*platform_), picture_(platform_->loader()),
+      gl_(gl::loadApi(platform_->loader())),
+      thumbnails_(filesOf(options.presets), options.loadTextures), bench_{.options = options,
+                                                                          .document =
+                                                                              Document(options.scene,
+                                                                                       {options.skyName, options.file}),
+                                                                          .picture = picture_,
+                                                                          .thumbnails = thumbnails_,
+                                                                          .interface = interface_} {
   if (options.uiScale > 0.0) interface_.setScale(static_cast<float>(options.uiScale));
   if (!options.script.empty()) script_.emplace(parseScript(readFile(options.script, kLongestScript), options.script));
   bench_.perform = [this](Action action, const std::string& argument) { perform(action, argument); };
+  bench_.openPreset = [this](const PresetFile& preset) { openSky(preset.file, {preset.name, ""}); };
+  bench_.goTo = [this](int number) { bookmark(number, false); };
+  bench_.keep = [this](int number) { bookmark(number, true); };
+  bench_.leave = [this] { running_ = false; };
   bench_.pace.scale = static_cast<float>(options.scale > 0.0 ? options.scale : picture_.softwareDriver() ? 0.5 : 1.0);
   if (picture_.softwareDriver())
     bench_.say("No GPU was found: the processor draws, coarsely while something moves and in full at rest.");
 }
 
-bool Viewer::idle() const {
-  return lively_ <= 0 && !bench_.playing && !bench_.navigation.travelling() && picture_.settled() && !script_;
+// Whether nothing on screen changes by itself but thumbnails.
+bool Viewer::atRest() const {
+  return !bench_.playing && !bench_.navigation.travelling() && picture_.settled() && !adapting_;
+}
+
+// How long the loop may wait for events, ms.
+int Viewer::patience() const {
+  if (lively_ > 0 || script_ || !atRest()) return 0;
+  return thumbnails_.complete() ? 200 : 50;
 }
 
 void Viewer::run() {
   Clock::time_point last = Clock::now();
   while (running_) {
-    std::vector<Event> events = platform_->poll(idle() ? kIdleMilliseconds : 0);
+    std::vector<Event> events = platform_->poll(patience());
     std::optional<ScriptStep> step;
     bool finished = false;
     if (script_) {
       ScriptPlayer::Frame frame = script_->next([&](const std::string& name) { return interface_.items.find(name); },
-                                                picture_.settled() && !bench_.navigation.travelling());
+                                                atRest() && thumbnails_.complete());
       // The user's hands stay out of a script.
       std::erase_if(events, [](const Event& e) { return e.kind != EventKind::quit && e.kind != EventKind::resize; });
       events.insert(events.end(), frame.events.begin(), frame.events.end());
@@ -115,6 +166,8 @@ void Viewer::run() {
 
     const double seconds = script_ ? kScriptFrame : std::min(secondsSince(last), 0.25);
     last = Clock::now();
+    if (thumbnails_.collect(gl_)) lively_ = 3;
+    entitle();
     interface_.begin(seconds);
     drawPanels();
     move(seconds);
@@ -134,7 +187,7 @@ void Viewer::handle(const Event& event) {
   interface_.feed(event);
   switch (event.kind) {
     case EventKind::quit:
-      running_ = false;
+      leave();
       break;
     case EventKind::mouseMove: {
       const glm::vec2 now(event.x, event.y);
@@ -164,7 +217,7 @@ void Viewer::handle(const Event& event) {
       if (event.down) pressed(event.key);
       break;
     case EventKind::drop:
-      openSky(event.text);
+      openSky(event.text, {event.text, event.text});
       break;
     case EventKind::resize:
       // A script's wish; the window answers with a resize event of its own.
@@ -182,6 +235,15 @@ void Viewer::pressed(Key key) {
   if (interface_.wantsText() && !modifiers.ctrl && (key < Key::f1 || key > Key::f12)) return;
   if (interface_.wantsText() && modifiers.ctrl && (key == Key::z || key == Key::c || key == Key::a)) return;
   if (interface_.wantsKeys() && key == Key::space) return;
+  // Away from the panels, unless there is something to close first.
+  if (key == Key::escape && !ImGui::IsAnyItemActive() &&
+      !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+    if (bench_.helpShown)
+      bench_.helpShown = false;
+    else
+      ImGui::SetWindowFocus(nullptr);
+    return;
+  }
   if (key >= Key::digit1 && key <= Key::digit9 && !modifiers.alt && !modifiers.shift) {
     bookmark(static_cast<int>(key) - static_cast<int>(Key::digit1), modifiers.ctrl);
     swallowText_ = true;
@@ -210,20 +272,29 @@ void Viewer::perform(Action action, const std::string& argument) {
   Document& document = bench_.document;
   switch (action) {
     case Action::open:
-      if (!argument.empty()) openSky(argument);
+    case Action::saveAs:
+    case Action::savePicture:
+      if (argument.empty())
+        askForFile(bench_, action);
+      else if (action == Action::open)
+        openSky(argument, {argument, argument});
+      else if (action == Action::saveAs)
+        saveSky(argument);
+      else
+        savePicture(argument);
       break;
     case Action::save:
-    case Action::saveAs:
-      saveSky(!argument.empty() ? argument : document.origin().file);
-      break;
-    case Action::savePicture:
+      if (document.origin().file.empty())
+        askForFile(bench_, Action::saveAs);
+      else
+        saveSky(document.origin().file);
       break;
     case Action::copyCommand:
       platform_->setClipboard(commandLine(document.scene(), document.savedScene(), document.origin().name));
       bench_.say("The command that renders this picture is on the clipboard.");
       break;
     case Action::quit:
-      running_ = false;
+      leave();
       break;
     case Action::undo:
       if (document.canUndo()) {
@@ -262,13 +333,25 @@ void Viewer::perform(Action action, const std::string& argument) {
       bench_.navigation.travel(document.scene().camera, document.savedScene().camera);
       break;
     case Action::panels:
-    case Action::fullPicture:
       bench_.panels = !bench_.panels;
       break;
     case Action::focusPanel:
+      bench_.panels = true;
+      ImGui::SetWindowFocus(interface_.wantsKeys() ? nullptr : kSide);
       break;
     case Action::search:
       bench_.panels = bench_.focusSearch = true;
+      bench_.wantedTab = Tab::parameters;
+      break;
+    case Action::gallery:
+    case Action::parameters:
+    case Action::sun:
+    case Action::wind:
+    case Action::camera:
+    case Action::film:
+    case Action::pace:
+      bench_.panels = true;
+      bench_.wantedTab = tabOf(action);
       break;
     case Action::help:
       bench_.helpShown = !bench_.helpShown;
@@ -282,17 +365,43 @@ void Viewer::perform(Action action, const std::string& argument) {
   }
 }
 
-void Viewer::openSky(const std::string& path) {
+void Viewer::openSky(const std::string& path, const Origin& origin) {
   try {
     Scene scene = loadSky(path);
-    textures_ = options_.loadTextures(scene);  // before anything is given up for it
-    bench_.document.open(std::move(scene), {path, path});
+    realtime::CustomTextures textures = options_.loadTextures(scene);  // before anything is given up for it
+    if (bench_.keepCamera) scene.camera = bench_.document.scene().camera;
+    bench_.document.open(std::move(scene), origin);
     bench_.navigation.stop();
-    picture_.reset();
+    bench_.refusals.clear();
     bench_.say("Opened " + path);
   } catch (const Error& e) {
     bench_.complain(e.what());
   }
+}
+
+void Viewer::savePicture(const std::string& path) {
+  try {
+    options_.savePicture(path, picture_.read(), bench_.film);
+    bench_.say("Saved " + path);
+  } catch (const std::exception& e) {
+    bench_.complain(e.what());
+  }
+}
+
+void Viewer::entitle() {
+  if (titledRevision_ == bench_.document.revision() && titled_ == bench_.document.origin().name) return;
+  titledRevision_ = bench_.document.revision();
+  titled_ = bench_.document.origin().name;
+  const std::string name = titled_.empty() ? "default" : std::filesystem::path(titled_).filename().string();
+  platform_->setTitle(fmt::format("{}{} – Welkin", bench_.document.modified() ? "*" : "", name));
+}
+
+// Unsaved changes are asked about, but not by a script.
+void Viewer::leave() {
+  if (script_ || !bench_.document.modified())
+    running_ = false;
+  else
+    bench_.panels = bench_.askBeforeLeaving = true;
 }
 
 void Viewer::saveSky(const std::string& path) {
@@ -367,16 +476,33 @@ void Viewer::drawPanels() {
   drawStatus(bench_);
   const float bar = ImGui::GetFrameHeight();
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  if (panelWidth_ == 0.0f) panelWidth_ = std::min(ImGui::GetFontSize() * 25.0f, 0.45f * screen.x);
+  if (panelWidth_ == 0.0f) panelWidth_ = std::min(ImGui::GetFontSize() * 28.0f, 0.5f * screen.x);
   ImGui::SetNextWindowPos({0.0f, bar});
   ImGui::SetNextWindowSizeConstraints({1.0f, 1.0f}, {screen.x * 0.8f, screen.y});
   ImGui::SetNextWindowSize({panelWidth_, std::max(screen.y - 2.0f * bar, 1.0f)});
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                       ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("##side", nullptr, kFlags)) drawParameters(bench_);
+  if (ImGui::Begin(kSide, nullptr, kFlags)) drawTabs();
   panelWidth_ = ImGui::GetWindowWidth();
   ImGui::End();
+  drawFiles(bench_);
+}
+
+void Viewer::drawTabs() {
+  if (!ImGui::BeginTabBar("##tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
+  for (const TabInfo& info : kTabs) {
+    const bool wanted = bench_.wantedTab == info.tab;
+    const bool shown =
+        ImGui::BeginTabItem(info.title, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);
+    interface_.items.mark(std::string("tab ") + info.title);
+    if (!shown) continue;
+    bench_.tab = info.tab;
+    info.draw(bench_);
+    ImGui::EndTabItem();
+  }
+  ImGui::EndTabBar();
+  bench_.wantedTab.reset();
 }
 
 void Viewer::takeScene() {
@@ -398,36 +524,39 @@ void Viewer::takeScene() {
 }
 
 // Automatic exposure follows the picture as an eye does, within a second.
+// Automatic exposure follows the picture as an eye does, within a second.
 void Viewer::expose(double seconds) {
-  if (bench_.document.scene().film.exposure != ExposureMode::automatic) {
+  bench_.film = bench_.document.scene().film;
+  if (bench_.film.exposure != ExposureMode::automatic) {
     metered_ = false;
     return;
   }
-  const double now = picture_.measuredEv();
+  const double now = automaticEv(picture_.meter());
   meteredEv_ = metered_ ? meteredEv_ + (now - meteredEv_) * (1.0 - std::exp(-4.0 * seconds)) : now;
-  if (std::abs(now - meteredEv_) > 0.01) lively_ = std::max(lively_, 1);
   metered_ = true;
+  adapting_ = std::abs(now - meteredEv_) > 0.01;
+  bench_.film.ev = static_cast<float>(meteredEv_);
 }
 
 void Viewer::draw(double seconds) {
   takeScene();
   const Region part = region();
   const Clock::time_point start = Clock::now();
-  const Camera& camera = bench_.document.scene().camera;
-  if (picture_.draw(camera, bench_.document.scene().time, part.width, part.height, bench_.pace.scale)) {
+  const Scene& scene = bench_.document.scene();
+  if (picture_.draw(scene.camera, scene.time, part.width, part.height, bench_.pace.scale)) {
     gl_.Finish();
+    Pace& pace = bench_.pace;
     const double ms = 1000.0 * secondsSince(start);
-    bench_.pace.renderMs = bench_.pace.renderMs > 0.0 ? 0.8 * bench_.pace.renderMs + 0.2 * ms : ms;
-    bench_.pace.frameMs = bench_.pace.renderMs;
+    pace.frameMs = pace.frameMs > 0.0 ? 0.8 * pace.frameMs + 0.2 * ms : ms;
+    pace.times[pace.next++ % Pace::kKept] = static_cast<float>(ms);
+    if (bench_.panels && bench_.tab == Tab::pace) pace.cost = picture_.cost();
   }
   expose(seconds);
-  Film film = bench_.document.scene().film;
-  if (metered_) film.ev = static_cast<float>(meteredEv_);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
-  picture_.show(platform_->framebuffer(), part, film);
+  picture_.show(platform_->framebuffer(), part, bench_.film);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
   interface_.draw();
 }
@@ -436,7 +565,7 @@ void Viewer::command(const ScriptStep& step) {
   if (step.verb == "screenshot") {
     savePngOf(gl_, platform_->framebuffer(), platform_->width(), platform_->height(), step.words[0]);
   } else if (step.verb == "picture") {
-    options_.savePicture(step.words[0], picture_.read(), bench_.document.scene().film);
+    options_.savePicture(step.words[0], picture_.read(), bench_.film);
   } else {
     const std::optional<Action> action = actionNamed(step.words[0]);
     if (!action) script_->fail(step, fmt::format("'{}' is not an action", step.words[0]));

@@ -20,20 +20,26 @@ enum class Action {
   play,
   resetTime,
   navigation,
+  homeView,
   below,
   inside,
   above,
-  homeView,
   panels,
   focusPanel,
   search,
-  help,
+  gallery,
+  parameters,
+  sun,
+  wind,
+  camera,
+  film,
+  pace,
   biggerInterface,
   smallerInterface,
-  fullPicture
+  help
 };
 
-enum class ActionGroup { file, edit, sky, camera, window };
+enum class ActionGroup { file, edit, time, camera, panel, window };
 
 struct ActionInfo {
   Action action;

@@ -110,6 +110,7 @@ void Document::open(Scene scene, Origin origin) {
 void Document::saved(const std::string& file) {
   saved_ = scene_;
   origin_ = {file, file};
+  ++revision_;
 }
 
 bool Document::modified() const {

@@ -50,7 +50,7 @@ class Document {
   bool undo();
   bool redo();
 
-  // Grows with every change but of camera and time.
+  // Grows with every change but of camera and time, and when the sky is saved.
   int revision() const { return revision_; }
 
   // Another sky; one step.

@@ -67,4 +67,6 @@ bool isSimple(std::string_view table, std::string_view field) {
                      [&](const SimpleField& s) { return s.table == table && s.field == field; });
 }
 
+std::size_t simpleFieldCount() { return kSimple.size(); }
+
 }  // namespace welkin::viewer

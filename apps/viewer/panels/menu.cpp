@@ -49,11 +49,9 @@ void drawHelp(Workbench& bench) {
 }  // namespace
 
 void drawMenu(Workbench& bench) {
-  constexpr std::pair<ActionGroup, const char*> kMenus[] = {{ActionGroup::file, "File"},
-                                                            {ActionGroup::edit, "Edit"},
-                                                            {ActionGroup::sky, "Time"},
-                                                            {ActionGroup::camera, "Camera"},
-                                                            {ActionGroup::window, "Window"}};
+  constexpr std::pair<ActionGroup, const char*> kMenus[] = {
+      {ActionGroup::file, "File"},     {ActionGroup::edit, "Edit"},   {ActionGroup::time, "Time"},
+      {ActionGroup::camera, "Camera"}, {ActionGroup::panel, "Panel"}, {ActionGroup::window, "Window"}};
   if (ImGui::BeginMainMenuBar()) {
     for (const auto& [group, title] : kMenus) {
       const bool open = ImGui::BeginMenu(title);

@@ -6,6 +6,17 @@ namespace welkin::viewer {
 
 void drawMenu(Workbench& bench);
 void drawStatus(Workbench& bench);
+// Dialogs that ask for files, and whether to leave unsaved changes.
+void drawFiles(Workbench& bench);
+// Opens the dialog of open, saveAs or savePicture.
+void askForFile(Workbench& bench, Action action);
+
+void drawGallery(Workbench& bench);
+void drawSun(Workbench& bench);
+void drawWind(Workbench& bench);
+void drawCamera(Workbench& bench);
+void drawFilm(Workbench& bench);
+void drawPace(Workbench& bench);
 // Every parameter, from the field tables.
 void drawParameters(Workbench& bench);
 // The fields of one section, for panels about one thing.

@@ -1,13 +1,17 @@
 #pragma once
 // What the panels share.
+#include <array>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "apps/viewer/model/actions.hpp"
 #include "apps/viewer/model/document.hpp"
 #include "apps/viewer/model/navigation.hpp"
 #include "apps/viewer/picture/sky_picture.hpp"
+#include "apps/viewer/picture/thumbnails.hpp"
 #include "apps/viewer/ui/interface.hpp"
 #include "apps/viewer/viewer.hpp"
 
@@ -15,9 +19,21 @@ namespace welkin::viewer {
 
 // How the frame loop is doing.
 struct Pace {
-  double frameMs = 0.0;   // smoothed, of frames that drew the sky
-  double renderMs = 0.0;  // of them, the sky
-  float scale = 1.0f;
+  static constexpr std::size_t kKept = 120;
+  double frameMs = 0.0;              // smoothed, of frames that drew the sky
+  std::array<float, kKept> times{};  // of the last ones, ms; the oldest at `next`
+  std::size_t next = 0;
+  float scale = 1.0f;          // of the resolution while something moves
+  realtime::FrameCost cost{};  // of the last frame, while its panel is shown
+};
+
+// Panels beside the picture, one at a time.
+enum class Tab { gallery, parameters, sun, wind, camera, film, pace };
+
+struct FileDialog {
+  std::optional<Action> wanted{};  // to be opened
+  std::filesystem::path folder{};
+  std::string name{};
 };
 
 struct Workbench {
@@ -26,6 +42,7 @@ struct Workbench {
   Navigation navigation{};
   Bookmarks bookmarks{};
   SkyPicture& picture;
+  Thumbnails& thumbnails;
   Interface& interface;
   Pace pace{};
 
@@ -34,7 +51,12 @@ struct Workbench {
   float timeRate = 1.0f;  // seconds of the sky to a second
 
   // Window.
-  bool panels = true, simple = true;
+  bool panels = true, simple = true, keepCamera = false, countSamples = false;
+  std::optional<Tab> wantedTab{};  // to be shown from the next frame on
+  Tab tab = Tab::parameters;
+  FileDialog files{};
+  bool askBeforeLeaving = false;
+  Film film{};  // of the scene, with the exposure that the meter has chosen
   std::string search{};
   bool focusSearch = false, helpShown = false;
   std::string message{};  // in the status bar
@@ -42,6 +64,9 @@ struct Workbench {
   std::map<std::string, std::string> refusals{};  // by parameter: why its last value was not taken
 
   std::function<void(Action, const std::string& argument)> perform{};
+  std::function<void(const PresetFile& preset)> openPreset{};
+  std::function<void(int bookmark)> goTo{}, keep{};
+  std::function<void()> leave{};
 
   void say(const std::string& text) {
     message = text;

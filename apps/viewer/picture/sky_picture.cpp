@@ -137,11 +137,8 @@ void SkyPicture::setScene(const Scene& scene, const realtime::CustomTextures& te
   const int edge = scene.quality.reprojection ? scene.quality.interleave : 1;
   s.turns = edge * edge;
   s.changed = true;
-}
-
-void SkyPicture::reset() {
-  state_->moving.view.reset();
-  state_->changed = true;
+  // Pixels of the old sky among those of the new one would be seen; few new ones, filled in, look better.
+  s.moving.view.reset();
 }
 
 bool SkyPicture::draw(const Camera& camera, double time, int width, int height, float scale) {
@@ -207,7 +204,7 @@ void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& fi
   s.gl.check("showing the picture");
 }
 
-double SkyPicture::measuredEv() const {
+Image SkyPicture::meter() const {
   const State& s = *state_;
   const gl::StateGuard guard(s.gl);
   const gl::Texture* targets[] = {&s.meter};
@@ -219,7 +216,7 @@ double SkyPicture::measuredEv() const {
   s.gl.Uniform1i(s.meterProgram.uniform("uLight"), 0);
   s.gl.Uniform2f(s.meterProgram.uniform("uStep"), 0.25f / kMeterWidth, 0.25f / kMeterHeight);
   s.gl.DrawArrays(GL_TRIANGLES, 0, 3);
-  return automaticEv(readTexture(s.gl, s.scratch, s.meter));
+  return readTexture(s.gl, s.scratch, s.meter);
 }
 
 Image SkyPicture::read() const {
@@ -231,6 +228,10 @@ Image SkyPicture::read() const {
 int SkyPicture::width() const { return state_->shown().light.width(); }
 int SkyPicture::height() const { return state_->shown().light.height(); }
 realtime::FrameCost SkyPicture::cost() const { return state_->renderer.lastCost(); }
+void SkyPicture::countSamples(bool on) {
+  state_->renderer.countSamples(on);
+  state_->changed = true;
+}
 std::vector<realtime::MemoryRow> SkyPicture::memory() const { return state_->renderer.memory(state_->shown().view); }
 const std::string& SkyPicture::driver() const { return state_->driver; }
 bool SkyPicture::softwareDriver() const {

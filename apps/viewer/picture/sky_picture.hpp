@@ -31,24 +31,23 @@ class SkyPicture {
   // Draws what this frame needs: nothing, when the picture has come to rest. `scale`: of the resolution while something
   // moves, in (0, 1]. Returns whether it has drawn.
   bool draw(const Camera& camera, double time, int width, int height, float scale);
-  // Forgets the past, after a cut.
-  void reset();
   // Nothing more would change.
   bool settled() const;
 
   // Tone-maps the picture into a part of a framebuffer. `film.ev` counts, whatever the mode.
   void show(unsigned framebuffer, const Region& region, const Film& film) const;
 
-  // What a light meter says of the picture (EV100); and its brightness as shares of pixels, `kBins` steps of half a
-  // stop round middle grey at EV 0.
-  double measuredEv() const;
+  // The picture on screen, reduced to a few thousand pixels: for meters and histograms.
+  Image meter() const;
 
   // The picture on screen: linear, kcd/m^2.
   Image read() const;
   // Of the picture drawn last, in pixels.
   int width() const;
   int height() const;
+  // Of the last frame that was drawn; waits for the driver.
   realtime::FrameCost cost() const;
+  void countSamples(bool on);
   std::vector<realtime::MemoryRow> memory() const;
   const std::string& driver() const;
   bool softwareDriver() const;

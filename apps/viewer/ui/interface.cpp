@@ -90,7 +90,9 @@ void Items::mark(const std::string& name) {
   if (ImGui::IsItemVisible()) mark(name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
 }
 void Items::mark(const std::string& name, const ImVec2& low, const ImVec2& high) {
-  boxes_[name] = {{low.x, low.y}, {high.x, high.y}};
+  std::string word = name;
+  std::replace(word.begin(), word.end(), ' ', '_');
+  boxes_[word] = {{low.x, low.y}, {high.x, high.y}};
 }
 std::optional<Box> Items::find(const std::string& name) const {
   const auto found = boxes_.find(name);

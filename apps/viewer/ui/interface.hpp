@@ -15,7 +15,7 @@ namespace welkin::viewer {
 // Where the widgets of this frame lie, so that scripts find them by name.
 class Items {
  public:
-  // Notes the last widget, if it can be seen.
+  // Notes the last widget, if it can be seen. Spaces in names become underscores.
   void mark(const std::string& name);
   void mark(const std::string& name, const ImVec2& low, const ImVec2& high);
   std::optional<Box> find(const std::string& name) const;
