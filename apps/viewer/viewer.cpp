@@ -19,6 +19,7 @@
 #include "welkin/base/tone.hpp"
 #include "welkin/io/file.hpp"
 #include "welkin/io/sky_file.hpp"
+#include "welkin/scene/sections.hpp"
 
 namespace welkin::viewer {
 
@@ -45,12 +46,32 @@ constexpr TabInfo kTabs[] = {{Tab::gallery, Action::gallery, "Gallery", drawGall
                              {Tab::wind, Action::wind, "Wind", drawWind},
                              {Tab::camera, Action::camera, "Camera", drawCamera},
                              {Tab::film, Action::film, "Film", drawFilm},
-                             {Tab::pace, Action::pace, "Pace", drawPace}};
+                             {Tab::pace, Action::pace, "Pace", drawPace},
+                             {Tab::reference, Action::reference, "Trace", drawReference}};
 
 std::optional<Tab> tabOf(Action action) {
   for (const TabInfo& info : kTabs)
     if (info.action == action) return info.tab;
   return std::nullopt;
+}
+
+// The scene without what changes nothing in the light of its picture.
+Scene lightOf(Scene scene) {
+  scene.title.clear();
+  scene.film = Film{};
+  scene.camera = Camera{};
+  scene.time = 0.0f;
+  return scene;
+}
+
+// What the files depend on that a scene names.
+std::string filesOf(const Scene& scene) {
+  std::string files;
+  for (const Layer& layer : scene.layers)
+    files += fmt::format("{}|{}|{}|", layer.weather.map, layer.weather.precipitation, layer.weather.type);
+  for (const GridCloud& grid : scene.grids)
+    for (const Field& f : fieldsOf<GridCloud>()) files += formatValue(f, f.get(&grid)) + "|";
+  return files;
 }
 
 class Viewer {
@@ -67,6 +88,7 @@ class Viewer {
   void draw(double seconds);
   void drawPanels();
   void takeScene();
+  void tendReference();
   void expose(double seconds);
   void command(const ScriptStep& step);
   void openSky(const std::string& path, const Origin& origin);
@@ -86,11 +108,13 @@ class Viewer {
   SkyPicture picture_;
   gl::Api gl_;
   Thumbnails thumbnails_;
+  Reference reference_;
   Workbench bench_;
   std::optional<ScriptPlayer> script_;
   bool running_ = true, swallowText_ = false;
   int revision_ = -1;
-  int lively_ = 3;  // frames to draw before resting
+  int lively_ = 3;              // frames to draw before resting
+  std::optional<Scene> drawn_;  // what the picture was made for, see lightOf()
   std::string texturesOf_, titled_;
   int titledRevision_ = -1;
   realtime::CustomTextures textures_;
@@ -121,6 +145,7 @@ Viewer::Viewer(const ViewerOptions& options)
                                                                                        {options.skyName, options.file}),
                                                                           .picture = picture_,
                                                                           .thumbnails = thumbnails_,
+                                                                          .reference = reference_,
                                                                           .interface = interface_} {
   if (options.uiScale > 0.0) interface_.setScale(static_cast<float>(options.uiScale));
   if (!options.script.empty()) script_.emplace(parseScript(readFile(options.script, kLongestScript), options.script));
@@ -142,7 +167,8 @@ bool Viewer::atRest() const {
 // How long the loop may wait for events, ms.
 int Viewer::patience() const {
   if (lively_ > 0 || script_ || !atRest()) return 0;
-  return thumbnails_.complete() ? 200 : 50;
+  const bool traces = reference_.running() && !reference_.state().complete;
+  return thumbnails_.complete() && !traces ? 200 : 50;
 }
 
 void Viewer::run() {
@@ -311,6 +337,10 @@ void Viewer::perform(Action action, const std::string& argument) {
     case Action::play:
       bench_.playing = !bench_.playing;
       break;
+    case Action::trace:
+      bench_.referenceWanted = !bench_.referenceWanted;
+      if (bench_.referenceWanted) bench_.say("The path tracer begins when the picture has come to rest.");
+      break;
     case Action::resetTime:
       document.moveTime(0.0f);
       break;
@@ -350,6 +380,7 @@ void Viewer::perform(Action action, const std::string& argument) {
     case Action::camera:
     case Action::film:
     case Action::pace:
+    case Action::reference:
       bench_.panels = true;
       bench_.wantedTab = tabOf(action);
       break;
@@ -487,6 +518,11 @@ void Viewer::drawPanels() {
   panelWidth_ = ImGui::GetWindowWidth();
   ImGui::End();
   drawFiles(bench_);
+  if (!reference_.texture() || bench_.comparison != Comparison::wipe) return;
+  const Region part = region();
+  const float x = static_cast<float>(part.x) + bench_.wipe * static_cast<float>(part.width);
+  const float top = screen.y - static_cast<float>(part.y + part.height), bottom = screen.y - static_cast<float>(part.y);
+  ImGui::GetBackgroundDrawList()->AddLine({x, top}, {x, bottom}, IM_COL32(255, 255, 255, 200), 1.5f);
 }
 
 void Viewer::drawTabs() {
@@ -509,18 +545,35 @@ void Viewer::takeScene() {
   if (bench_.document.revision() == revision_) return;
   revision_ = bench_.document.revision();
   const Scene& scene = bench_.document.scene();
+  Scene light = lightOf(scene);
+  if (drawn_ && sameScene(light, *drawn_)) return;
   try {
-    // Pictures and volumes are read again only when others are named.
-    std::string files;
-    for (const Layer& layer : scene.layers)
-      files += fmt::format("{}|{}|{}|", layer.weather.map, layer.weather.precipitation, layer.weather.type);
-    if (!scene.grids.empty()) files += fmt::format("grids {}", revision_);
+    const std::string files = filesOf(scene);
     if (files != texturesOf_) textures_ = options_.loadTextures(scene);
     texturesOf_ = files;
     picture_.setScene(scene, textures_);
+    drawn_ = std::move(light);
   } catch (const Error& e) {
     bench_.complain(e.what());
+    // There must be something to draw from the first frame on.
+    if (!drawn_) {
+      picture_.setScene(Scene{}, {});
+      drawn_ = lightOf(Scene{});
+    }
   }
+}
+
+// Starts the path tracer when the picture rests, and stops it when it no longer shows the same.
+void Viewer::tendReference() {
+  const bool rests = atRest();
+  if (reference_.running() && (!rests || !bench_.referenceWanted)) reference_.stop();
+  if (!reference_.running() && rests && bench_.referenceWanted) {
+    Scene scene = bench_.document.scene();
+    scene.film = bench_.film;
+    scene.film.exposure = ExposureMode::manual;
+    reference_.start(scene, textures_, picture_.read());
+  }
+  if (reference_.collect(gl_)) lively_ = 3;
 }
 
 // Automatic exposure follows the picture as an eye does, within a second.
@@ -552,11 +605,12 @@ void Viewer::draw(double seconds) {
     if (bench_.panels && bench_.tab == Tab::pace) pace.cost = picture_.cost();
   }
   expose(seconds);
+  tendReference();
   gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
-  picture_.show(platform_->framebuffer(), part, bench_.film);
+  picture_.show(platform_->framebuffer(), part, bench_.film, {&reference_.texture(), bench_.comparison, bench_.wipe});
   gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
   interface_.draw();
 }

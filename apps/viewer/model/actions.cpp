@@ -31,6 +31,8 @@ constexpr ActionInfo kActions[] = {
     {Action::camera, ActionGroup::panel, "camera", "Camera", {Key::f6, {}}},
     {Action::film, ActionGroup::panel, "film", "Film", {Key::f7, {}}},
     {Action::pace, ActionGroup::panel, "pace", "Pace", {Key::f8, {}}},
+    {Action::reference, ActionGroup::panel, "reference", "Reference", {Key::f11, {}}},
+    {Action::trace, ActionGroup::time, "trace", "Path-traced reference", {Key::r, {}}},
     {Action::search, ActionGroup::panel, "search", "Search a parameter", {Key::slash, {}}},
     {Action::focusPanel, ActionGroup::window, "focus_panel", "Keyboard to panel or picture", {Key::f10, {}}},
     {Action::panels, ActionGroup::window, "panels", "Panels on and off", {Key::f9, {}}},

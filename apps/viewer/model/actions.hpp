@@ -34,6 +34,8 @@ enum class Action {
   camera,
   film,
   pace,
+  reference,
+  trace,
   biggerInterface,
   smallerInterface,
   help

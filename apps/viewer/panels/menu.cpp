@@ -50,7 +50,7 @@ void drawHelp(Workbench& bench) {
 
 void drawMenu(Workbench& bench) {
   constexpr std::pair<ActionGroup, const char*> kMenus[] = {
-      {ActionGroup::file, "File"},     {ActionGroup::edit, "Edit"},   {ActionGroup::time, "Time"},
+      {ActionGroup::file, "File"},     {ActionGroup::edit, "Edit"},   {ActionGroup::time, "Sky"},
       {ActionGroup::camera, "Camera"}, {ActionGroup::panel, "Panel"}, {ActionGroup::window, "Window"}};
   if (ImGui::BeginMainMenuBar()) {
     for (const auto& [group, title] : kMenus) {

@@ -17,6 +17,7 @@ void drawWind(Workbench& bench);
 void drawCamera(Workbench& bench);
 void drawFilm(Workbench& bench);
 void drawPace(Workbench& bench);
+void drawReference(Workbench& bench);
 // Every parameter, from the field tables.
 void drawParameters(Workbench& bench);
 // The fields of one section, for panels about one thing.

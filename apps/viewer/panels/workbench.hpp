@@ -10,6 +10,7 @@
 #include "apps/viewer/model/actions.hpp"
 #include "apps/viewer/model/document.hpp"
 #include "apps/viewer/model/navigation.hpp"
+#include "apps/viewer/picture/reference.hpp"
 #include "apps/viewer/picture/sky_picture.hpp"
 #include "apps/viewer/picture/thumbnails.hpp"
 #include "apps/viewer/ui/interface.hpp"
@@ -28,7 +29,7 @@ struct Pace {
 };
 
 // Panels beside the picture, one at a time.
-enum class Tab { gallery, parameters, sun, wind, camera, film, pace };
+enum class Tab { gallery, parameters, sun, wind, camera, film, pace, reference };
 
 struct FileDialog {
   std::optional<Action> wanted{};  // to be opened
@@ -43,12 +44,18 @@ struct Workbench {
   Bookmarks bookmarks{};
   SkyPicture& picture;
   Thumbnails& thumbnails;
+  Reference& reference;
   Interface& interface;
   Pace pace{};
 
   // Time.
   bool playing = false;
   float timeRate = 1.0f;  // seconds of the sky to a second
+
+  // The reference.
+  bool referenceWanted = false;
+  Comparison comparison = Comparison::wipe;
+  float wipe = 0.5f;  // share of the picture, from the left, that is the real-time one
 
   // Window.
   bool panels = true, simple = true, keepCamera = false, countSamples = false;

@@ -22,10 +22,22 @@ constexpr const char* kShowText = R"(
 #include "welkin/base/tone.glsl"
 layout(std140) uniform Tone { ToneParameters uTone; };
 uniform sampler2D uLight;
+uniform sampler2D uReference;
+uniform int uComparison;  // 0: none; then the order of Comparison, from 1
+uniform float uWipe;
 in vec2 vUv;
 layout(location = 0) out vec4 oColour;
 void main() {
   vec3 shown = toneMap(textureLod(uLight, vUv, 0.0).rgb, uTone);
+  if (uComparison > 0) {
+    vec4 reference = textureLod(uReference, vUv, 0.0);
+    vec3 traced = toneMap(reference.rgb, uTone);
+    // What has not been traced yet stays dark.
+    if (reference.a < 0.99) traced = 0.15 * shown;
+    if (uComparison == 1) shown = vUv.x < uWipe ? shown : traced;
+    if (uComparison == 2) shown = traced;
+    if (uComparison == 3) shown = reference.a < 0.99 ? vec3(0.5) : vec3(0.5) + 4.0 * (shown - traced);
+  }
   // Half a step of noise against bands (J. Jimenez 2014, interleaved gradient noise).
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   oColour = vec4(shown + (noise - 0.5) / 255.0, 1.0);
@@ -183,7 +195,7 @@ bool SkyPicture::settled() const {
   return (full ? s.moving : s.still).frames >= kRounds * s.turns;
 }
 
-void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& film) const {
+void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& film, const Overlay& overlay) const {
   const State& s = *state_;
   const law::ToneParameters tone = toneParameters({.ev = film.ev - film.compensation,
                                                    .whiteBalance = film.whiteBalance,
@@ -200,6 +212,12 @@ void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& fi
   s.gl.ActiveTexture(GL_TEXTURE0);
   s.gl.BindTexture(GL_TEXTURE_2D, s.shown().light.id());
   s.gl.Uniform1i(s.showProgram.uniform("uLight"), 0);
+  const bool compares = overlay.reference && *overlay.reference;
+  s.gl.ActiveTexture(GL_TEXTURE0 + 1);
+  s.gl.BindTexture(GL_TEXTURE_2D, compares ? overlay.reference->id() : s.shown().light.id());
+  s.gl.Uniform1i(s.showProgram.uniform("uReference"), 1);
+  s.gl.Uniform1i(s.showProgram.uniform("uComparison"), compares ? static_cast<int>(overlay.comparison) + 1 : 0);
+  s.gl.Uniform1f(s.showProgram.uniform("uWipe"), overlay.wipe);
   s.gl.DrawArrays(GL_TRIANGLES, 0, 3);
   s.gl.check("showing the picture");
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/viewer/picture/reference.hpp"
 #include "welkin/base/image.hpp"
 #include "welkin/gl/loader.hpp"
 #include "welkin/realtime/renderer.hpp"
@@ -34,8 +35,14 @@ class SkyPicture {
   // Nothing more would change.
   bool settled() const;
 
-  // Tone-maps the picture into a part of a framebuffer. `film.ev` counts, whatever the mode.
-  void show(unsigned framebuffer, const Region& region, const Film& film) const;
+  // Tone-maps the picture into a part of a framebuffer. `film.ev` counts, whatever the mode. `overlay`: the reference
+  // beside or over it.
+  struct Overlay {
+    const gl::Texture* reference = nullptr;
+    Comparison comparison = Comparison::wipe;
+    float wipe = 0.5f;
+  };
+  void show(unsigned framebuffer, const Region& region, const Film& film, const Overlay& overlay) const;
 
   // The picture on screen, reduced to a few thousand pixels: for meters and histograms.
   Image meter() const;
