@@ -182,18 +182,21 @@ Flip flipOf(const Options& o, const std::vector<int>& places) {
 
 std::string legRows(const Options& o, const std::vector<double>& seconds, std::vector<double>& warmUp) {
   std::string json;
-  fmt::print("{:<12}{:>14}{:>14}{:>16}{:>16}\n", "leg", "mean CPU s", "median", "first frame", "next 7, mean");
+  fmt::print("{:<12}{:>14}{:>14}{:>16}{:>16}{:>16}\n", "leg", "mean CPU s", "median", "first frame", "next 7, mean",
+             "worst later");
   for (int leg = 0; leg < static_cast<int>(bench::kLegs.size()); ++leg) {
     const auto at = [&](int frame) { return seconds.begin() + std::min(frame, o.end(leg)); };
     const int begin = o.begin(leg);
-    const std::vector<double> all(at(begin), at(o.frames)), next(at(begin + 1), at(begin + kWarmUp));
+    const std::vector<double> all(at(begin), at(o.end(leg))), next(at(begin + 1), at(begin + kWarmUp));
     warmUp.insert(warmUp.end(), at(begin), at(begin + kWarmUp));
     const char* name = bench::kLegs[static_cast<std::size_t>(leg)].name;
-    fmt::print("{:<12}{:>14.3f}{:>14.3f}{:>16.3f}{:>16.3f}\n", name, mean(all), bench::median(all), all.front(),
-               mean(next));
+    const double worst = all.size() > kWarmUp ? *std::max_element(all.begin() + kWarmUp, all.end()) : 0.0;
+    fmt::print("{:<12}{:>14.3f}{:>14.3f}{:>16.3f}{:>16.3f}{:>16.3f}\n", name, mean(all), bench::median(all),
+               all.front(), mean(next), worst);
     json += fmt::format(
-        "{}\"{}\": {{\"cpu_s\": {:.4f}, \"cpu_s_median\": {:.4f}, \"cpu_s_first\": {:.4f}, \"cpu_s_next\": {:.4f}}}",
-        json.empty() ? "" : ", ", name, mean(all), bench::median(all), all.front(), mean(next));
+        "{}\"{}\": {{\"cpu_s\": {:.4f}, \"cpu_s_median\": {:.4f}, \"cpu_s_first\": {:.4f}, \"cpu_s_next\": {:.4f}, "
+        "\"cpu_s_worst\": {:.4f}}}",
+        json.empty() ? "" : ", ", name, mean(all), bench::median(all), all.front(), mean(next), worst);
   }
   std::fflush(stdout);
   return json;

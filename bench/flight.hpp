@@ -48,6 +48,7 @@ struct FlightOptions {
   int width = 1280, height = 720;
   int frames = kLegFrames * static_cast<int>(kLegs.size());
   QualityPreset quality = QualityPreset::high;
+  int lightFrames = 0;  // 0: as the preset has it
   std::string pictures{};
 
   void addTo(CLI::App& app) {
@@ -59,6 +60,7 @@ struct FlightOptions {
     app.add_option("--frames", frames, "of the flight; fewer than 300 fly the middle of each leg")
         ->check(CLI::Range(4, frames));
     app.add_option("--quality", quality)->transform(CLI::CheckedTransformer(presets));
+    app.add_option("--light-frames", lightFrames, "in place of the preset's")->check(CLI::Range(1, 240));
     app.add_option("--pictures", pictures, "folder for some of the frames");
   }
   int legFrames() const { return frames / static_cast<int>(kLegs.size()); }
@@ -74,6 +76,7 @@ struct FlightOptions {
     const double t = (m.sinceCut + (kLegFrames - legFrames()) / 2) / kFramesPerSecond;
     Scene& s = m.scene;
     s.quality = qualityPreset(quality);
+    if (lightFrames > 0) s.quality.lightFrames = lightFrames;
     s.time = static_cast<float>(number * kLegFrames / kFramesPerSecond + t);
     const double heading = glm::radians(leg.heading + leg.turn * t);
     // The chord of a turn points along the mean of its headings.

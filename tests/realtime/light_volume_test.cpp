@@ -60,5 +60,155 @@ TEST(LightVolume, ASlabLetsThroughWhatTwoStreamTheorySays) {
   }
 }
 
+// A small sky of cumulus whose picture needs no history.
+Scene cumulus() {
+  Scene scene = plainScene(LayerShape::profile);
+  scene.quality.lightFrames = 8;
+  scene.quality.reprojection = false;
+  scene.camera.pitch = 0.35f;
+  return scene;
+}
+
+bool same(const Image& a, const Image& b) { return a.pixels == b.pixels; }
+
+// Frames until the picture is `end`; 0 when it never is.
+int framesUntil(Stage& stage, const Frame& frame, const Image& end, int most) {
+  for (int i = 1; i <= most; ++i)
+    if (same(stage.draw(stage.view, frame), end)) return i;
+  return 0;
+}
+
+// Thinner clouds, the sun elsewhere: the light changes over several frames, and ends as if it had been made at once.
+TEST(LightVolume, ChangesByAndByAndEndsWhereItWouldAtOnce) {
+  Stage stage(48, 27);
+  const Scene before = cumulus();
+  const Frame frame = stage.frame(before);
+  Scene thinner = before, turned = before;
+  thinner.layers[0].cloud.extinction *= 0.3f;
+  turned.sun.azimuth += 1.0f;
+  for (const Scene& after : {thinner, turned}) {
+    stage.draw(after);
+    const Image end = stage.draw(after);
+    stage.draw(before);
+    stage.sky->setScene(after);
+    const int frames = framesUntil(stage, frame, end, 60);
+    std::printf("%d frames\n", frames);
+    EXPECT_GT(frames, 8);  // three levels
+    EXPECT_GT(framesUntil(stage, frame, end, 1), 0) << "and stays there";
+    // A cut wants all of it in the first frame; so does a quality that says so.
+    stage.draw(before);
+    stage.sky->setScene(after);
+    stage.view.reset();
+    EXPECT_EQ(framesUntil(stage, frame, end, 1), 1);
+    Scene atOnce = after;
+    atOnce.quality.lightFrames = 1;
+    stage.draw(before);
+    stage.sky->setScene(atOnce);
+    EXPECT_EQ(framesUntil(stage, frame, end, 1), 1);
+  }
+}
+
+// Sliders that move all the time: every level gets its turn, so that the light is never older than a round.
+TEST(LightVolume, KeepsUpWithASunThatNeverStands) {
+  Stage stage(48, 27);
+  Scene scene = cumulus();
+  stage.draw(scene);
+  const double start = scene.sun.azimuth;
+  Image last;
+  for (int i = 0; i < 90; ++i) {
+    scene.sun.azimuth = static_cast<float>(start + 0.01 * i);
+    stage.sky->setScene(scene);
+    last = stage.draw(stage.view, stage.frame(scene));
+  }
+  const Image now = stage.draw(scene);
+  scene.sun.azimuth = static_cast<float>(start);
+  const Image then = stage.draw(scene);
+  const double lag = displayedPsnr(last, now), change = displayedPsnr(then, now);
+  std::printf("%.1f dB off, the sun's way is %.1f dB\n", lag, change);
+  EXPECT_GT(lag, change + 6.0);
+}
+
+// Clouds that change all the time: weather and light come after, and stand still soon after them.
+TEST(LightVolume, KeepsUpWithCloudsThatNeverStand) {
+  Stage stage(48, 27);
+  Scene scene = cumulus();
+  const Image then = stage.draw(scene);
+  const float start = scene.layers[0].weather.coverage;
+  Image last;
+  for (int i = 1; i <= 60; ++i) {
+    scene.layers[0].weather.coverage = start + 0.002f * static_cast<float>(i);
+    stage.sky->setScene(scene);
+    last = stage.draw(stage.view, stage.frame(scene));
+  }
+  const Frame frame = stage.frame(scene);
+  scene.quality.lightFrames = 1;
+  Stage other(48, 27);
+  const Image now = other.draw(scene);
+  const double lag = displayedPsnr(last, now), change = displayedPsnr(then, now);
+  std::printf("%.1f dB off, the whole change is %.1f dB\n", lag, change);
+  EXPECT_GT(lag, change + 3.0);
+  EXPECT_GT(framesUntil(stage, frame, now, 90), 0);
+}
+
+double lightMilliseconds(Renderer& sky) {
+  for (const PassCost& pass : sky.lastCost().passes)
+    if (pass.name == "light volume") return pass.milliseconds;
+  return 0.0;
+}
+
+// Eyes 20 km apart, each with light of its own; eyes 500 m apart share it.
+TEST(LightVolume, EveryEyeKeepsItsOwnAndNeighboursShare) {
+  Stage stage(48, 27);
+  Scene scene = cumulus();
+  stage.sky->setScene(scene);
+  View near, beside, far;
+  Frame here = stage.frame(scene), there = here, next = here;
+  next.position.x += 500.0;
+  there.position.x += 20000.0;
+  double first = 0.0, later = 0.0;
+  unsigned names[3] = {};
+  Image pictures[3];
+  View* const views[] = {&near, &beside, &far};
+  const Frame* const frames[] = {&here, &next, &there};
+  for (int turn = 0; turn < 3; ++turn)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Image picture = stage.draw(*views[i], *frames[i]);
+      (turn == 0 ? first : later) += lightMilliseconds(*stage.sky);
+      const unsigned name = stage.sky->outputs(*views[i]).sunDepth.name;
+      if (turn > 0) {
+        EXPECT_EQ(name, names[i]);
+        EXPECT_TRUE(same(picture, pictures[i])) << turn << ", " << i;
+      }
+      names[i] = name;
+      pictures[i] = picture;
+    }
+  EXPECT_EQ(names[0], names[1]);
+  EXPECT_NE(names[0], names[2]);
+  std::printf("light volume: %.1f ms in the first turn, %.1f in two more\n", first, later);
+  EXPECT_LT(later, 0.1 * first + 1.0);
+  // As a renderer that has only that eye.
+  Stage other(48, 27);
+  other.sky->setScene(scene);
+  EXPECT_TRUE(same(other.draw(other.view, there), pictures[2]));
+}
+
+// An eye that flies off takes its own along, and one that has been left alone flies on with what there was.
+TEST(LightVolume, EyesThatPartStayTrue) {
+  Stage stage(48, 27);
+  Scene scene = cumulus();
+  stage.sky->setScene(scene);
+  View still, moving;
+  const Frame here = stage.frame(scene);
+  Frame away = here;
+  const Image before = stage.draw(still, here);
+  Image after;
+  for (int i = 0; i < 30; ++i) {
+    away.position.y = here.position.y + 200.0 * i;
+    stage.draw(moving, away);
+    after = stage.draw(still, here);
+  }
+  EXPECT_TRUE(same(before, after));
+}
+
 }  // namespace
 }  // namespace welkin::realtime::test

@@ -13,8 +13,10 @@ namespace welkin::realtime {
 namespace {
 
 constexpr double kLeash = 0.08;       // share of a level's edge that the camera may move before it is made again
+constexpr double kUseless = 0.3;      // the same after which it is of no use
 constexpr float kSunTurn = 0.003f;    // rad that the sun may turn before
 constexpr float kSunJump = 0.02f;     // rad after which nothing known of its light is of use
+constexpr float kStretch = 0.1f;      // share of the shell's height by which it may change and leave the light of use
 constexpr double kAgeing = 20.0;      // s in which noise that drifts at a speed of its own has moved
 constexpr float kLeastSlant = 0.03f;  // a sun that is lower shines as from here
 // Steps of relaxation of a level that starts from the coarser one, and of one that knew most of its light.
@@ -22,6 +24,8 @@ constexpr int kFirstSteps = 8, kNextSteps = 3;
 // Sunlight that has been turned aside once or twice, counted as light without direction by this share: see
 // march_params.cpp.
 constexpr float kBeam = 0.17f;
+// What one slice of each pass costs, in proportion (llvmpipe).
+constexpr double kDensityWork = 6.0, kSunWork = 1.0, kStartWork = 0.5, kDownWork = 2.0, kUpWork = 1.0, kCopyWork = 0.4;
 constexpr GLuint kBlockBinding = 3;
 constexpr int kUnits = 10;  // the first texture unit of these passes; those before it hold the clouds
 
@@ -39,7 +43,7 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
       diffusionPass_(pass(gl, "light_diffusion")), columnPass_(pass(gl, "light_column")), block_(gl) {
   const bool small = preset == QualityPreset::low || preset == QualityPreset::medium;
   extent_ = {small ? 64 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
-  slices_ = small ? 20 : 32;
+  slices_ = small ? 19 : 30;
   levels_.resize(static_cast<std::size_t>(extent_.levels));
   const auto volume = [&](const gl::Format& format, int levels) {
     return gl::Texture(gl, gl::Texture::Kind::volume, format, extent_.texels, extent_.texels, slices_ * levels,
@@ -49,11 +53,12 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     return gl::Texture(gl, gl::Texture::Kind::plane, format, extent_.texels, extent_.texels, 0, gl::Filter::linear,
                        gl::Addressing::clamp, nullptr);
   };
-  density_ = volume(gl::kRg16F, 1);
   sun_ = volume(gl::kR16F, extent_.levels);
   diffuse_ = volume(gl::kRg16F, extent_.levels);
-  share_ = volume(gl::kR16F, 1);
+  density_ = volume(gl::kRg16F, 1);
   steps_ = volume(gl::kR16F, 1);
+  share_ = volume(gl::kR16F, 1);
+  light_ = volume(gl::kRg16F, 1);
   scalarSlice_ = {plane(gl::kR16F), plane(gl::kR16F)};
   lightSlice_ = {plane(gl::kRg16F), plane(gl::kRg16F)};
 }
@@ -62,81 +67,182 @@ std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() 
   return {{"light volume: sun", &sun_},
           {"light volume: diffuse", &diffuse_},
           {"light volume: density", &density_},
-          {"light volume: share", &share_},
           {"light volume: steps", &steps_},
+          {"light volume: share", &share_},
+          {"light volume: light", &light_},
           {"light volume: slice a", &scalarSlice_[0]},
           {"light volume: slice b", &scalarSlice_[1]},
           {"light volume: light slice a", &lightSlice_[0]},
           {"light volume: light slice b", &lightSlice_[1]}};
 }
 
-law::LightVolumeParams LightVolume::place(const glm::dvec2& position, const Drift& drift, const Shell& shell,
-                                          const glm::vec3& sunDirection, int scene) {
-  const bool sameClouds = scene == scene_ && shell.bottom == shell_.bottom && shell.top == shell_.top;
-  const float turned = glm::distance(sunDirection, sunward_);
-  if (!sameClouds || turned > kSunTurn || std::abs(drift.time - time_) > kAgeing) {
-    for (Level& level : levels_) {
-      level.fresh = false;
-      level.known = level.known && sameClouds && turned < kSunJump;
-    }
-    scene_ = scene;
+void LightVolume::place(const glm::dvec2& position, const Drift& drift, const Shell& shell,
+                        const glm::vec3& sunDirection, int scene) {
+  const bool sameShell = shell.bottom == shell_.bottom && shell.top == shell_.top;
+  if (!sameShell) {
+    // All levels are stretched to it, and what is half made was made for another one.
+    const float moved = std::max(std::abs(shell.bottom - shell_.bottom), std::abs(shell.top - shell_.top));
+    if (moved > kStretch * (shell_.top - shell_.bottom)) forget();
     shell_ = shell;
-    sunward_ = sunDirection;
-    time_ = drift.time;
+    job_.reset();
   }
+  if (!sameShell || scene != scene_ || glm::distance(sunDirection, wanted_.sunward) > kSunJump) ++wanted_.version;
+  scene_ = scene;
   inAir_ = position - driftOffset(drift);
-  params_ = {};
-  params_.levels.count = extent_.levels;
-  params_.bottom = shell.bottom;
-  params_.inverseHeight = 1.0f / (shell.top - shell.bottom);
-  params_.slices = static_cast<float>(slices_);
-  const float rise = (shell.top - shell.bottom) / static_cast<float>(slices_);
-  params_.shift = glm::vec4(glm::vec2(sunward_) * (rise / std::max(sunward_.z, kLeastSlant)),
-                            static_cast<float>(1.0 / kPlanetRadius), static_cast<float>(extent_.texels));
-  params_.inverseDepth = 1.0f / static_cast<float>(sun_.depth());
-  for (int i = 0; i < extent_.levels; ++i) {
-    Level& level = levels_[static_cast<std::size_t>(i)];
-    const glm::dvec2 away = glm::abs(inAir_ - level.centre);
-    if (!level.fresh || std::max(away.x, away.y) > kLeash * extent_.edge(i)) {
-      level.centre = levelCentre(extent_, i, inAir_);
-      level.fresh = false;
-    }
-    levelOf(params_.levels, i) = clipLevel(extent_, i, inAir_ - level.centre);
-  }
-  return params_;
+  wanted_.sunward = sunDirection;
+  wanted_.time = drift.time;
+}
+
+void LightVolume::forget() {
+  for (Level& level : levels_) level.shown = false;
+  job_.reset();
+}
+
+double LightVolume::away(int level) const {
+  const glm::dvec2 way = glm::abs(inAir_ - levels_[static_cast<std::size_t>(level)].centre);
+  return std::max(way.x, way.y) / extent_.edge(level);
+}
+
+bool LightVolume::useless(int level) const {
+  return !levels_[static_cast<std::size_t>(level)].shown || away(level) > kUseless;
+}
+
+bool LightVolume::outOfDate(int level) const {
+  const Level& has = levels_[static_cast<std::size_t>(level)];
+  return useless(level) || away(level) > kLeash || has.version != wanted_.version ||
+         glm::distance(has.sunward, wanted_.sunward) > kSunTurn || std::abs(has.time - wanted_.time) > kAgeing;
 }
 
 bool LightVolume::stale() const {
-  return std::any_of(levels_.begin(), levels_.end(), [](const Level& level) { return !level.fresh; });
+  for (int i = 0; i < extent_.levels; ++i)
+    if (outOfDate(i)) return true;
+  return job_.has_value();
+}
+
+bool LightVolume::lost() const {
+  for (int i = 0; i < extent_.levels; ++i)
+    if (useless(i)) return true;
+  return false;
+}
+
+law::LightVolumeParams LightVolume::params() const {
+  law::LightVolumeParams p{};
+  p.levels.count = extent_.levels;
+  p.bottom = shell_.bottom;
+  p.inverseHeight = 1.0f / (shell_.top - shell_.bottom);
+  p.slices = static_cast<float>(slices_);
+  p.inverseDepth = 1.0f / static_cast<float>(sun_.depth());
+  const float rise = (shell_.top - shell_.bottom) / static_cast<float>(slices_);
+  const glm::vec3& sunward = levels_.front().sunward;
+  p.shift = glm::vec4(glm::vec2(sunward) * (rise / std::max(sunward.z, kLeastSlant)),
+                      static_cast<float>(1.0 / kPlanetRadius), static_cast<float>(extent_.texels));
+  for (int i = 0; i < extent_.levels; ++i)
+    levelOf(p.levels, i) = clipLevel(extent_, i, inAir_ - levels_[static_cast<std::size_t>(i)].centre);
+  return p;
 }
 
 glm::vec4 LightVolume::square(const glm::dvec2& centre, int level, float w) const {
   return {glm::vec2(centre - inAir_), static_cast<float>(extent_.edge(level)), w};
 }
 
-void LightVolume::draw(const gl::Program& density, gl::Framebuffer& framebuffer) {
-  block_.upload(&params_, sizeof params_);
-  block_.bind(kBlockBinding);
-  for (int i = extent_.levels - 1; i >= 0; --i) {
-    Level& level = levels_[static_cast<std::size_t>(i)];
-    if (level.fresh) continue;
-    fillDensity(density, framebuffer, i);
-    fillSun(framebuffer, i);
-    fillDiffuse(framebuffer, i);
-    level.fresh = level.known = true;
-    level.before = level.centre;
+// The next level in turn, from the coarsest to the finest and round again, so that none waits for ever.
+LightVolume::Job LightVolume::nextJob() {
+  Job job;
+  job.level = last_;
+  do job.level = job.level == 0 ? extent_.levels - 1 : job.level - 1;
+  while (!outOfDate(job.level) && job.level != last_);
+  const Level& has = levels_[static_cast<std::size_t>(job.level)];
+  static_cast<Purpose&>(job) = wanted_;
+  job.centre = levelCentre(extent_, job.level, inAir_);
+  if (job.level + 1 < extent_.levels)
+    job.version = std::min(job.version, levels_[static_cast<std::size_t>(job.level) + 1].version);
+  job.known = has.shown && has.version == job.version && glm::distance(has.sunward, job.sunward) < kSunJump;
+  return job;
+}
+
+void LightVolume::draw(const gl::Program& density, gl::Framebuffer& framebuffer, int frames) {
+  const auto mustNow = [&] { return lost() || (frames <= 1 && stale()); };
+  if (mustNow()) {
+    job_.reset();
+    last_ = 0;
+  }
+  double work = slices_ * (kDensityWork + 8.0 * kSunWork + kNextSteps * (kDownWork + kUpWork)) / std::max(frames, 1);
+  while (stale()) {
+    const bool now = mustNow();
+    if (!now && work <= 0.0) break;
+    if (!job_) job_ = nextJob();
+    const double left = go(density, framebuffer, now ? 1e30 : work);
+    work = now ? 0.0 : left;
   }
 }
 
-void LightVolume::use(const gl::Program& program, int level) {
+int LightVolume::doublings() const {
+  const float height = shell_.top - shell_.bottom, edge = static_cast<float>(extent_.edge(job_->level));
+  const float rise = std::max(job_->sunward.z, kLeastSlant);
+  const float across = std::max(glm::length(glm::vec2(job_->sunward)), 1e-3f);
+  const float longest = std::min(height / rise, 1.42f * edge / across);
+  return static_cast<int>(std::ceil(std::log2(std::max(longest / firstStep(), 2.0f))));
+}
+
+// Of the way toward the sun: no longer than a cell.
+float LightVolume::firstStep() const {
+  const float rise = std::max(job_->sunward.z, kLeastSlant);
+  const float across = std::max(glm::length(glm::vec2(job_->sunward)), 1e-3f);
+  return std::min((shell_.top - shell_.bottom) / static_cast<float>(slices_) / rise,
+                  static_cast<float>(extent_.edge(job_->level)) / static_cast<float>(extent_.texels) / across);
+}
+
+double LightVolume::go(const gl::Program& density, gl::Framebuffer& framebuffer, double work) {
+  law::LightVolumeParams params = this->params();
+  levelOf(params.levels, job_->level) = clipLevel(extent_, job_->level, inAir_ - job_->centre);
+  block_.upload(&params, sizeof params);
+  block_.bind(kBlockBinding);
+  const int steps = job_->known ? kNextSteps : kFirstSteps, doublings = this->doublings();
+  while (job_ && work > 0.0) {
+    constexpr double kWork[] = {kDensityWork, kSunWork, kStartWork, kDownWork, kUpWork, kCopyWork};
+    Job& job = *job_;
+    const double each = kWork[static_cast<std::size_t>(job.phase)];
+    // A level is shown in one go.
+    const int left = slices_ - job.slice;
+    const int count =
+        job.phase == Phase::publish || work > each * left ? left : static_cast<int>(std::ceil(work / each));
+    work -= each * count;
+    const bool ends = count == left;
+    switch (job.phase) {
+      case Phase::density:
+        fillDensity(density, framebuffer, count);
+        if (ends) job.phase = Phase::sun;
+        break;
+      case Phase::sun:
+        fillSun(framebuffer, count, doublings);
+        if (ends && job.round++ == doublings) job.phase = Phase::start;
+        break;
+      case Phase::start:
+        start(framebuffer, count);
+        if (ends) job.phase = Phase::down, job.round = 0;
+        break;
+      case Phase::down:
+        diffuseDown(framebuffer, count);
+        if (ends) job.phase = Phase::up;
+        break;
+      case Phase::up:
+        diffuseUp(framebuffer, count, steps);
+        if (ends) job.phase = ++job.round == steps ? Phase::publish : Phase::down;
+        break;
+      case Phase::publish:
+        publish(framebuffer);
+        return work;
+    }
+    job.slice = ends ? 0 : job.slice + count;
+  }
+  return work;
+}
+
+void LightVolume::use(const gl::Program& program) {
   gl_.UseProgram(program.id());
-  const glm::vec4 place =
-      square(levels_[static_cast<std::size_t>(level)].centre, level, static_cast<float>(extent_.texels));
+  const glm::vec4 place = square(job_->centre, job_->level, static_cast<float>(extent_.texels));
   gl_.Uniform4f(program.uniform("uLevel"), place.x, place.y, place.z, place.w);
-  gl_.Uniform1i(program.uniform("uFirst"), level * slices_);
   bind(program, "uDensity", density_, kUnits);
-  bind(program, "uSun", sun_, kUnits + 1);
-  bind(program, "uDiffuse", diffuse_, kUnits + 2);
 }
 
 void LightVolume::bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const {
@@ -159,9 +265,9 @@ void LightVolume::copy(int target, const gl::Texture& to, int slice) const {
   gl_.CopyTexSubImage3D(to.target(), 0, 0, 0, slice, 0, 0, extent_.texels, extent_.texels);
 }
 
-void LightVolume::fillDensity(const gl::Program& program, gl::Framebuffer& framebuffer, int level) {
-  use(program, level);
-  for (int s = 0; s < slices_; ++s) {
+void LightVolume::fillDensity(const gl::Program& program, gl::Framebuffer& framebuffer, int count) {
+  use(program);
+  for (int s = job_->slice; s < job_->slice + count; ++s) {
     slice(program, s);
     const gl::Texture* const targets[] = {&density_};
     framebuffer.target(targets, s);
@@ -169,77 +275,95 @@ void LightVolume::fillDensity(const gl::Program& program, gl::Framebuffer& frame
   }
 }
 
-void LightVolume::fillSun(gl::Framebuffer& framebuffer, int level) {
-  use(sunPass_, level);
-  const float height = shell_.top - shell_.bottom, slice = height / static_cast<float>(slices_);
-  const float edge = static_cast<float>(extent_.edge(level)), texel = edge / static_cast<float>(extent_.texels);
-  const float rise = std::max(sunward_.z, kLeastSlant), across = std::max(glm::length(glm::vec2(sunward_)), 1e-3f);
-  const float step = std::min(slice / rise, texel / across);
-  const float longest = std::min(height / rise, 1.42f * edge / across);
-  const int doublings = static_cast<int>(std::ceil(std::log2(std::max(longest / step, 2.0f))));
-  gl_.Uniform4f(sunPass_.uniform("uSunward"), sunward_.x, sunward_.y, sunward_.z, kLeastSlant);
-  gl_.Uniform1i(sunPass_.uniform("uCoarsest"), level == extent_.levels - 1 ? 1 : 0);
-  for (int i = 0; i <= doublings; ++i) {
-    const bool last = i == doublings;
-    gl_.Uniform2f(sunPass_.uniform("uWay"), i == 0 ? 0.0f : std::ldexp(step, i - 1), step);
-    gl_.Uniform1i(sunPass_.uniform("uLast"), last ? 1 : 0);
-    const gl::Texture &from = i % 2 == 0 ? share_ : steps_, &to = i % 2 == 0 ? steps_ : share_;
-    bind(sunPass_, "uSteps", from, kUnits + 3);
-    for (int s = 0; s < slices_; ++s) {
-      this->slice(sunPass_, s);
-      const gl::Texture* const targets[] = {last ? &scalarSlice_[0] : &to};
-      framebuffer.target(targets, last ? 0 : s);
-      gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-      if (last) copy(0, sun_, level * slices_ + s);
-    }
+void LightVolume::fillSun(gl::Framebuffer& framebuffer, int count, int doublings) {
+  use(sunPass_);
+  const int round = job_->round;
+  const glm::vec3& sunward = job_->sunward;
+  gl_.Uniform4f(sunPass_.uniform("uSunward"), sunward.x, sunward.y, sunward.z, kLeastSlant);
+  gl_.Uniform1i(sunPass_.uniform("uCoarsest"), job_->level == extent_.levels - 1 ? 1 : 0);
+  gl_.Uniform2f(sunPass_.uniform("uWay"), round == 0 ? 0.0f : std::ldexp(firstStep(), round - 1), firstStep());
+  gl_.Uniform1i(sunPass_.uniform("uLast"), round == doublings ? 1 : 0);
+  const bool ends = (doublings - round) % 2 == 0;
+  bind(sunPass_, "uSteps", ends ? share_ : steps_, kUnits + 1);
+  bind(sunPass_, "uSun", sun_, kUnits + 2);
+  for (int s = job_->slice; s < job_->slice + count; ++s) {
+    slice(sunPass_, s);
+    const gl::Texture* const targets[] = {ends ? &steps_ : &share_};
+    framebuffer.target(targets, s);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 }
 
-void LightVolume::fillDiffuse(gl::Framebuffer& framebuffer, int level) {
-  const Level& now = levels_[static_cast<std::size_t>(level)];
+void LightVolume::start(gl::Framebuffer& framebuffer, int count) {
+  const int level = job_->level;
+  const Level& has = levels_[static_cast<std::size_t>(level)];
   const bool coarsest = level == extent_.levels - 1;
-  const int first = level * slices_;
-  use(startPass_, level);
-  const glm::vec4 before = square(now.before, level, now.known ? 1.0f : 0.0f);
+  use(startPass_);
+  bind(startPass_, "uDiffuse", diffuse_, kUnits + 1);
+  const glm::vec4 before = square(has.centre, level, job_->known ? 1.0f : 0.0f);
   const glm::vec4 coarser =
       coarsest ? glm::vec4(0, 0, 1, 0) : square(levels_[static_cast<std::size_t>(level) + 1].centre, level + 1, 1.0f);
   gl_.Uniform4f(startPass_.uniform("uBefore"), before.x, before.y, before.z, before.w);
   gl_.Uniform4f(startPass_.uniform("uCoarser"), coarser.x, coarser.y, coarser.z, coarser.w);
-  const gl::Texture* const only[] = {&lightSlice_[0]};
-  framebuffer.target(only);
-  for (int s = 0; s < slices_; ++s) {
+  gl_.Uniform1i(startPass_.uniform("uFirst"), level * slices_);
+  for (int s = job_->slice; s < job_->slice + count; ++s) {
     slice(startPass_, s);
+    const gl::Texture* const targets[] = {&light_};
+    framebuffer.target(targets, s);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-    copy(0, diffuse_, first + s);
   }
-  const int steps = now.known ? kNextSteps : kFirstSteps;
-  for (int step = 0; step < steps; ++step) {
-    use(diffusionPass_, level);
-    gl_.Uniform1f(diffusionPass_.uniform("uSideways"), coarsest && !now.known && step == 0 ? 0.0f : 1.0f);
-    for (int s = slices_ - 1; s >= 0; --s) {
-      const auto turn = static_cast<std::size_t>(s & 1);
-      slice(diffusionPass_, s);
-      bind(diffusionPass_, "uLightAbove", lightSlice_[1 - turn], kUnits + 3);
-      bind(diffusionPass_, "uShareAbove", scalarSlice_[1 - turn], kUnits + 4);
-      const gl::Texture* const targets[] = {&lightSlice_[turn], &scalarSlice_[turn]};
-      framebuffer.target(targets);
-      gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-      copy(0, diffuse_, first + s);
-      copy(1, share_, s);
-    }
-    use(columnPass_, level);
-    bind(columnPass_, "uShare", share_, kUnits + 4);
-    gl_.Uniform1f(columnPass_.uniform("uBeam"), step == steps - 1 ? kBeam : 0.0f);
+}
+
+void LightVolume::diffuseDown(gl::Framebuffer& framebuffer, int count) {
+  use(diffusionPass_);
+  bind(diffusionPass_, "uDiffuse", light_, kUnits + 1);
+  bind(diffusionPass_, "uSun", steps_, kUnits + 2);
+  const bool alone = job_->level == extent_.levels - 1 && !job_->known && job_->round == 0;
+  gl_.Uniform1f(diffusionPass_.uniform("uSideways"), alone ? 0.0f : 1.0f);
+  for (int done = job_->slice; done < job_->slice + count; ++done) {
+    const int s = slices_ - 1 - done;
+    const auto turn = static_cast<std::size_t>(s & 1);
+    slice(diffusionPass_, s);
+    bind(diffusionPass_, "uLightAbove", lightSlice_[1 - turn], kUnits + 3);
+    bind(diffusionPass_, "uShareAbove", scalarSlice_[1 - turn], kUnits + 4);
+    const gl::Texture* const targets[] = {&lightSlice_[turn], &scalarSlice_[turn]};
+    framebuffer.target(targets);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    copy(0, light_, s);
+    copy(1, share_, s);
+  }
+}
+
+void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count, int steps) {
+  use(columnPass_);
+  bind(columnPass_, "uDiffuse", light_, kUnits + 1);
+  bind(columnPass_, "uSun", steps_, kUnits + 2);
+  bind(columnPass_, "uShare", share_, kUnits + 4);
+  gl_.Uniform1f(columnPass_.uniform("uBeam"), job_->round == steps - 1 ? kBeam : 0.0f);
+  for (int s = job_->slice; s < job_->slice + count; ++s) {
+    const auto turn = static_cast<std::size_t>(s & 1);
+    slice(columnPass_, s);
+    bind(columnPass_, "uBelow", lightSlice_[1 - turn], kUnits + 3);
+    const gl::Texture* const targets[] = {&lightSlice_[turn]};
+    framebuffer.target(targets);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    copy(0, light_, s);
+  }
+}
+
+void LightVolume::publish(gl::Framebuffer& framebuffer) {
+  const gl::Texture* const from[] = {&steps_, &light_};
+  const gl::Texture* const to[] = {&sun_, &diffuse_};
+  for (std::size_t i = 0; i < 2; ++i)
     for (int s = 0; s < slices_; ++s) {
-      const auto turn = static_cast<std::size_t>(s & 1);
-      slice(columnPass_, s);
-      bind(columnPass_, "uBelow", lightSlice_[1 - turn], kUnits + 3);
-      const gl::Texture* const targets[] = {&lightSlice_[turn]};
-      framebuffer.target(targets);
-      gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-      copy(0, diffuse_, first + s);
+      framebuffer.target({&from[i], 1}, s);
+      copy(0, *to[i], job_->level * slices_ + s);
     }
-  }
+  Level& level = levels_[static_cast<std::size_t>(job_->level)];
+  static_cast<Purpose&>(level) = *job_;
+  level.shown = true;
+  last_ = job_->level;
+  job_.reset();
 }
 
 }  // namespace welkin::realtime

@@ -5,6 +5,7 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,15 +20,23 @@ class LightVolume {
  public:
   LightVolume(const gl::Api& gl, QualityPreset preset);
 
-  // For positions relative to `position`, with clouds between these altitudes (m); `scene` changes with the clouds.
-  // Levels that have to be made anew are found here and made by draw().
-  law::LightVolumeParams place(const glm::dvec2& position, const Drift& drift, const Shell& shell,
-                               const glm::vec3& sunDirection, int scene);
+  // What it shall be for: positions relative to `position`, clouds between these altitudes (m); `scene` changes with
+  // the clouds. Levels that have to be made anew are found here and made by draw().
+  void place(const glm::dvec2& position, const Drift& drift, const Shell& shell, const glm::vec3& sunDirection,
+             int scene);
+  // Nothing that it holds is of use any more: other clouds altogether.
+  void forget();
   // Whether draw() has anything to do.
   bool stale() const;
-  // Makes what place() has found out of date, coarse levels first. `density`: shaders/light_density.frag.glsl with the
-  // clouds' blocks and textures bound, on units below 10. Leaves framebuffer, program and viewport changed.
-  void draw(const gl::Program& density, gl::Framebuffer& framebuffer);
+  // Whether there is a level without light that is of any use.
+  bool lost() const;
+  // Makes what place() has found out of date, a share of a level with each call; `frames` calls for a level, 1: all of
+  // it at once. A level keeps its old light until the new one is complete; one that has none of use is made at once.
+  // `density`: shaders/light_density.frag.glsl with the clouds' blocks and textures bound, on units below 10. Leaves
+  // framebuffer, program and viewport changed.
+  void draw(const gl::Program& density, gl::Framebuffer& framebuffer, int frames);
+  // What is there, for positions relative to that of the last place().
+  law::LightVolumeParams params() const;
 
   QualityPreset preset() const { return preset_; }
   const gl::Texture& sun() const { return sun_; }          // optical depth toward the sun
@@ -36,15 +45,40 @@ class LightVolume {
   std::vector<std::pair<const char*, const gl::Texture*>> textures() const;
 
  private:
-  struct Level {
+  // What a level is made for.
+  struct Purpose {
     glm::dvec2 centre{0.0};  // in the air's own frame, which drifts with the wind
-    glm::dvec2 before{0.0};  // its centre when `diffuse` was made
-    bool fresh = false, known = false;
+    glm::vec3 sunward{0.0f};
+    double time = 0.0;
+    int version = -1;  // of clouds and sun; not newer than that of the coarser level that it leans on
   };
-  void fillDensity(const gl::Program& program, gl::Framebuffer& framebuffer, int level);
-  void fillSun(gl::Framebuffer& framebuffer, int level);
-  void fillDiffuse(gl::Framebuffer& framebuffer, int level);
-  void use(const gl::Program& program, int level);
+  struct Level : Purpose {
+    bool shown = false;  // holds light
+  };
+  enum class Phase { density, sun, start, down, up, publish };
+  // A level on its way: where it stands, a run of slices at a time.
+  struct Job : Purpose {
+    int level = 0;
+    bool known = false;  // starts from the light that it had
+    Phase phase = Phase::density;
+    int round = 0, slice = 0;
+  };
+
+  bool outOfDate(int level) const;
+  bool useless(int level) const;
+  double away(int level) const;
+  int doublings() const;
+  float firstStep() const;
+  Job nextJob();
+  // Goes on with the job, over at most so much work (costs of the passes in light_volume.cpp); returns what is left.
+  double go(const gl::Program& density, gl::Framebuffer& framebuffer, double work);
+  void fillDensity(const gl::Program& program, gl::Framebuffer& framebuffer, int count);
+  void fillSun(gl::Framebuffer& framebuffer, int count, int doublings);
+  void start(gl::Framebuffer& framebuffer, int count);
+  void diffuseDown(gl::Framebuffer& framebuffer, int count);
+  void diffuseUp(gl::Framebuffer& framebuffer, int count, int steps);
+  void publish(gl::Framebuffer& framebuffer);
+  void use(const gl::Program& program);
   void slice(const gl::Program& program, int number) const;
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const;
   void copy(int target, const gl::Texture& to, int slice) const;
@@ -52,22 +86,22 @@ class LightVolume {
 
   const gl::Api& gl_;
   QualityPreset preset_;
-  WeatherExtent extent_;  // squares and their texels
-  int slices_;            // of a level, from the bottom of the clouds to their top
-  gl::Texture density_, sun_, diffuse_;
-  gl::Texture share_, steps_;  // light_diffusion.frag.glsl and light_sun.frag.glsl, which uses both by turns
+  WeatherExtent extent_;       // squares and their texels
+  int slices_;                 // of a level, from the bottom of the clouds to their top
+  gl::Texture sun_, diffuse_;  // all levels
+  // Of the level that is being made: light_density, light_sun (whose last doubling ends in steps_), light_diffusion.
+  gl::Texture density_, steps_, share_, light_;
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
   gl::Program sunPass_, startPass_, diffusionPass_, columnPass_;
   gl::UniformBuffer block_;
   std::vector<Level> levels_;
-  // What the levels were made for.
-  Shell shell_{};
-  glm::vec3 sunward_{0.0f};
-  double time_ = 0.0;
-  int scene_ = -1;
+  std::optional<Job> job_;
+  int last_ = 0;  // level that was made last; coarse ones come before finer ones, then coarse ones again
   // Of the last place().
+  Purpose wanted_;
+  Shell shell_{};
+  int scene_ = -1;
   glm::dvec2 inAir_{0.0};
-  law::LightVolumeParams params_{};
 };
 
 }  // namespace welkin::realtime

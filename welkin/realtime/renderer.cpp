@@ -16,13 +16,12 @@
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/grid_atlas.hpp"
 #include "welkin/realtime/host.hpp"
-#include "welkin/realtime/light_volume.hpp"
 #include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/noise_textures.hpp"
 #include "welkin/realtime/shader_sources.hpp"
 #include "welkin/realtime/sky_tables.hpp"
+#include "welkin/realtime/surroundings.hpp"
 #include "welkin/realtime/timers.hpp"
-#include "welkin/realtime/weather_levels.hpp"
 #include "welkin/scene/lightning.hpp"
 
 namespace welkin::realtime {
@@ -30,6 +29,7 @@ namespace welkin::realtime {
 namespace {
 
 constexpr int kBlueNoiseSize = 64;
+constexpr int kMostWait = 16;  // frames
 constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
 // The uniform block "Layers" of the passes that march through clouds.
@@ -74,10 +74,11 @@ struct View::State {
   int width = 0, height = 0, interleave = 0;
   gl::Texture marched, marchedDepth, samples;
   std::array<gl::Texture, 2> history;
-  int current = 0;  // history that was written last
-  int frames = 0;   // since the last reset
-  int still = 0;    // frames since anything moved
-  int scene = 0;    // which of the renderer's scenes it shows
+  int current = 0;          // history that was written last
+  int frames = 0;           // since the last reset
+  int still = 0;            // frames since anything moved
+  int scene = 0;            // which of the renderer's scenes it shows
+  bool lightDrawn = false;  // its frame to come has had its share of the light volume's work
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
   double lastTime = 0.0;
@@ -85,6 +86,8 @@ struct View::State {
   law::HostParams host{};
   UpAxis up = UpAxis::z;
   gl::UniformBuffer hostBuffer;
+  std::shared_ptr<Eye> eye = std::make_shared<Eye>();
+  std::shared_ptr<Surroundings> around;
 };
 
 View::View() : state_(std::make_unique<State>()) {}
@@ -112,8 +115,11 @@ struct Renderer::State {
   glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};       // of the light: by night it is the moon's
   gl::Texture profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, white, blueNoise;
   std::vector<gl::Texture> maps;
-  std::unique_ptr<WeatherLevels> weather;
-  std::unique_ptr<LightVolume> light;
+  SurroundingsPool pool;
+  std::shared_ptr<Surroundings> around;  // of the view whose turn it is
+  WeatherLevels* weather = nullptr;      // what is in them; null when there is nothing to know
+  LightVolume* light = nullptr;
+  int weatherNumber = 0, skyNumber = 0;  // change when they have to be made anew, or their light is of no use
   GridAtlas grids;
   std::vector<PlacedGrid> placedGrids;  // that it was made of
   float gridExtinction = 0.0f;          // their greatest, 1/m
@@ -149,18 +155,33 @@ struct Renderer::State {
            !custom.nubisDetail.texels.empty() || !custom.curl.texels.empty();
   }
 
+  bool sameGrids(const CustomTextures& custom) const {
+    const auto same = [](const PlacedGrid& a, const PlacedGrid& b) {
+      return a.voxels == b.voxels && a.fromWorld == b.fromWorld && a.extinction == b.extinction;
+    };
+    return std::equal(placedGrids.begin(), placedGrids.end(), custom.grids.begin(), custom.grids.end(), same);
+  }
+
   // Whether another scene has the very clouds of this one, its textures being the renderer's own.
   bool sameClouds(const Scene& next, const CustomTextures& custom) const {
     const auto sameLayer = [](const Layer& a, const Layer& b) {
       return sameFields(a.cloud, b.cloud) && sameFields(a.weather, b.weather) && sameFields(a.profile, b.profile) &&
              sameFields(a.nubis, b.nubis);
     };
-    return hasScene && !customised && !replacesNoise(custom) && custom.weatherMaps.empty() && custom.grids.empty() &&
-           placedGrids.empty() && scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
+    return hasScene && !customised && !replacesNoise(custom) && custom.weatherMaps.empty() && sameGrids(custom) &&
+           scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
            sameFields(scene.noise.profile, next.noise.profile) &&
            sameFields(scene.noise.baseShape, next.noise.baseShape) &&
            sameFields(scene.noise.detail, next.noise.detail) && sameFields(scene.noise.curl, next.noise.curl) &&
            std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameLayer);
+  }
+
+  // Whether another scene has clouds in the same places, of other sizes perhaps, so that light changes over by and by.
+  bool kindred(const Scene& next, const CustomTextures& custom) const {
+    const auto sameShape = [](const Layer& a, const Layer& b) { return a.cloud.shape == b.cloud.shape; };
+    return !customised && !replacesNoise(custom) && scene.seed == next.seed && custom.weatherMaps.empty() &&
+           sameGrids(custom) &&
+           std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameShape);
   }
 
   static bool uses(const Scene& sky, LayerShape shape) {
@@ -170,7 +191,8 @@ struct Renderer::State {
   void makeTextures(const Scene& next, const CustomTextures& custom);
   void makeWeather(const Scene& next, const CustomTextures& custom);
   void makeGrids(const Scene& next, const CustomTextures& custom);
-  void makeLight();
+  bool lit() const;
+  void surround(View::State& view, const glm::dvec2& place);
   void makeMarch();
   void bindClouds(const gl::Program& program, int unit) const;
   void makeTargets(View::State& view, const Frame& frame) const;
@@ -187,8 +209,9 @@ struct Renderer::State {
 
   // The passes, in order.
   void skyPass(const glm::dvec3& position);
-  void weatherPass(const glm::dvec2& place, const Drift& drift);
-  void lightPass(const Frame& frame, const glm::dvec3& position, const Drift& drift, const FrameParams& params);
+  void weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift);
+  void lightPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
+                 const FrameParams& params);
   void marchPass(View::State& view, const Frame& frame);
   void resolvePass(View::State& view, const gl::Program& program);
   void lightningOf(const glm::dvec2& place, double time);
@@ -261,10 +284,10 @@ void Renderer::State::makeMarch() {
       fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n",
                   kMaxLayers, scene.sheets.size(), kMaxGrids, layers);
   const std::string defines = clouds + (counting ? "#define COUNT_SAMPLES\n" : "") +
-                              (light ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
+                              (lit() ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
   if (text == marchDefines) return;
-  if (light)
+  if (lit())
     lightProgram = gl::Program(gl, "light density", clouds, fileText("welkin/realtime/shaders/light_density.frag.glsl"),
                                shaderSource);
   march = gl::Program(gl, "march", text, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
@@ -281,6 +304,7 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.heavens = heavensOf(scene.sun, scene.moon, scene.night);
   s.sunDirection = s.heavens.lights.light.direction;
   if (!s.sameClouds(scene, textures)) ++s.cloudsNumber;
+  if (!s.kindred(scene, textures)) ++s.skyNumber;
   s.makeTextures(scene, textures);
   s.makeWeather(scene, textures);
   s.makeGrids(scene, textures);
@@ -288,15 +312,27 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.scene = scene;
   s.hasScene = true;
   s.hostView = nullptr;
-  s.makeLight();
+  ++s.sceneNumber;
+  s.makeMarch();
+}
+
+void Renderer::setQuality(const Quality& quality) {
+  State& s = *state_;
+  if (!s.hasScene) throw Error(ErrorKind::failed, "", "a quality was set before setScene()");
+  Quality next = quality;
+  next.preset = s.scene.quality.preset;
+  if (next == s.scene.quality) return;
+  const gl::StateGuard guard(s.gl);
+  s.gl.BindVertexArray(s.triangle.id());
+  s.scene.quality = next;
+  s.hostView = nullptr;
   ++s.sceneNumber;
   s.makeMarch();
 }
 
 void Renderer::State::makeWeather(const Scene& next, const CustomTextures& custom) {
-  const WeatherExtent extent = weatherExtent(next.quality.preset);
   const bool pictures = !custom.weatherMaps.empty();
-  bool same = weather && !pictures && maps.size() == next.layers.size() && scene.seed == next.seed &&
+  bool same = hasScene && !pictures && maps.size() == next.layers.size() && scene.seed == next.seed &&
               sameFields(scene.wind, next.wind) && scene.quality.preset == next.quality.preset;
   for (std::size_t i = 0; same && i < next.layers.size(); ++i) {
     const Layer &a = scene.layers[i], &b = next.layers[i];
@@ -304,10 +340,8 @@ void Renderer::State::makeWeather(const Scene& next, const CustomTextures& custo
            sameFields(a.nubis, b.nubis) && a.profile.baseVariation == b.profile.baseVariation;
   }
   if (same) return;
-  weather.reset();
+  ++weatherNumber;
   maps.clear();
-  if (next.layers.empty()) return;
-  weather = std::make_unique<WeatherLevels>(gl, extent, static_cast<int>(next.layers.size()));
   for (std::size_t i = 0; i < next.layers.size(); ++i) {
     const std::string& name = next.layers[i].weather.map;
     const bool given = i < custom.weatherMaps.size() && !custom.weatherMaps[i].texels.empty();
@@ -317,12 +351,33 @@ void Renderer::State::makeWeather(const Scene& next, const CustomTextures& custo
   }
 }
 
-void Renderer::State::makeLight() {
+// Whether there is a volume of light.
+bool Renderer::State::lit() const {
   const bool clouds = !scene.layers.empty() || grids.count() > 0;
-  if (!clouds || !scene.quality.lightVolume || scene.lighting.model == LightingModel::nubis)
-    light.reset();
-  else if (!light || light->preset() != scene.quality.preset)
-    light = std::make_unique<LightVolume>(gl, scene.quality.preset);
+  return clouds && scene.quality.lightVolume && scene.lighting.model != LightingModel::nubis;
+}
+
+// What is cached round the view's eye.
+void Renderer::State::surround(View::State& view, const glm::dvec2& place) {
+  around = view.around = pool.of(view.eye, view.around, place);
+  if (around->weatherNumber != weatherNumber) {
+    const WeatherExtent extent = weatherExtent(scene.quality.preset);
+    const int layers = static_cast<int>(scene.layers.size());
+    if (around->weather && around->skyNumber == skyNumber && around->weather->fits(extent, layers))
+      around->weather->change();
+    else
+      around->weather = layers > 0 ? std::make_unique<WeatherLevels>(gl, extent, layers) : nullptr;
+    around->weatherNumber = weatherNumber;
+  }
+  if (!lit())
+    around->light.reset();
+  else if (!around->light || around->light->preset() != scene.quality.preset)
+    around->light = std::make_unique<LightVolume>(gl, scene.quality.preset);
+  else if (around->skyNumber != skyNumber)
+    around->light->forget();
+  around->skyNumber = skyNumber;
+  weather = around->weather.get();
+  light = around->light.get();
 }
 
 void Renderer::State::makeGrids(const Scene& next, const CustomTextures& custom) {
@@ -332,10 +387,7 @@ void Renderer::State::makeGrids(const Scene& next, const CustomTextures& custom)
     throw Error(ErrorKind::badInput, "",
                 fmt::format("the sky names {} grids, and {} were handed to the renderer, which takes at most {}", named,
                             custom.grids.size(), kMaxGrids));
-  const auto same = [](const PlacedGrid& a, const PlacedGrid& b) {
-    return a.voxels == b.voxels && a.fromWorld == b.fromWorld && a.extinction == b.extinction;
-  };
-  if (std::equal(placedGrids.begin(), placedGrids.end(), custom.grids.begin(), custom.grids.end(), same)) return;
+  if (sameGrids(custom)) return;
   grids = GridAtlas(gl, custom.grids);
   placedGrids = custom.grids;
   gridExtinction = 0.0f;
@@ -348,22 +400,26 @@ void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
   const int scale = frame.mapping == Projection::equirectangular ? 1 : scene.quality.historyScale;
   const int interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
   const int width = (frame.width + scale - 1) / scale, height = (frame.height + scale - 1) / scale;
-  if (view.history[0] && view.width == width && view.height == height && view.interleave == interleave &&
-      static_cast<bool>(view.samples) == counting)
-    return;
   const auto target = [&](const gl::Format& format, int w, int h, gl::Filter filter) {
     return gl::Texture(gl, gl::Texture::Kind::plane, format, w, h, 0, filter, gl::Addressing::clamp, nullptr);
   };
+  // The history that is read may have another size than the one that is written next: a picture goes over into another
+  // quality without a break.
+  gl::Texture& written = view.history[static_cast<std::size_t>(1 - view.current)];
+  if (!written || written.width() != width || written.height() != height)
+    written = target(gl::kRgba16F, width, height, gl::Filter::linear);
+  gl::Texture& read = view.history[static_cast<std::size_t>(view.current)];
+  if (!read) read = target(gl::kRgba16F, width, height, gl::Filter::linear);
+  if (view.width == width && view.height == height && view.interleave == interleave &&
+      static_cast<bool>(view.samples) == counting)
+    return;
   const int w = (width + interleave - 1) / interleave, h = (height + interleave - 1) / interleave;
-  for (gl::Texture& t : view.history) t = target(gl::kRgba16F, width, height, gl::Filter::linear);
   view.marched = target(gl::kRgba16F, w, h, gl::Filter::linear);
   view.marchedDepth = target(gl::kR16F, w, h, gl::Filter::nearest);
   view.samples = counting ? target(gl::kR32F, w, h, gl::Filter::nearest) : gl::Texture();
   view.width = width;
   view.height = height;
   view.interleave = interleave;
-  view.frames = view.still = 0;
-  view.last.reset();
 }
 
 void Renderer::State::skyPass(const glm::dvec3& position) {
@@ -371,14 +427,20 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
   sky.update(scene.atmosphere, heavens.lights, std::max(altitude, 0.0), scene.ground.albedo, userSky.get());
 }
 
-void Renderer::State::weatherPass(const glm::dvec2& place, const Drift& drift) {
+void Renderer::State::weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift) {
+  if (!weather) return;
+  const bool changing = weather->changing();
+  // After a cut nobody has seen the old weather.
+  const int most = view.frames == 0 ? WeatherLevels::kAll : 1;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     weather->update(static_cast<int>(i), scene.layers[i], place, drift, scene.seed, weatherProgram, framebuffer,
-                    weatherBuffer, maps[i] ? maps[i] : white);
+                    weatherBuffer, maps[i] ? maps[i] : white, most);
+  // Light that has been made among both must be made again.
+  if (changing && !weather->changing()) ++cloudsNumber;
 }
 
 // What the passes that march need to know, and the volume of light.
-void Renderer::State::lightPass(const Frame& frame, const glm::dvec3& position, const Drift& drift,
+void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
                                 const FrameParams& params) {
   const glm::dvec2 place = placeOf(position, frame);
   LayersBlock block{};
@@ -398,15 +460,24 @@ void Renderer::State::lightPass(const Frame& frame, const glm::dvec3& position, 
                                    frame.background == Background::skyAndGround, shells, gridExtinction);
   m.skyBehind = frame.background == Background::host ? 0.0f : 1.0f;
   marchBuffer.upload(&m, sizeof m);
-  if (light) block.volume = light->place(place, drift, {m.bottom, m.top}, sunDirection, cloudsNumber);
-  host = hostParams(block.air, light ? &block.volume : nullptr, m, sky.light());
+  if (light) {
+    light->place(place, drift, {m.bottom, m.top}, sunDirection, cloudsNumber);
+    block.volume = light->params();
+  }
   layersBuffer.upload(&block, sizeof block);
-  if (!light || !light->stale()) return;
-  gl.UseProgram(lightProgram.id());
-  lightProgram.bindBlock("Layers", kLayersBlock);
-  layersBuffer.bind(kLayersBlock);
-  bindClouds(lightProgram, 0);
-  light->draw(lightProgram, framebuffer);
+  // Light follows weather that changes, or goes along when that has no end.
+  around->waited = weather && weather->changing() ? around->waited + 1 : 0;
+  const bool waits = around->waited > 0 && around->waited <= kMostWait && view.frames > 0 && light && !light->lost();
+  if (light && light->stale() && !view.lightDrawn && !waits) {
+    gl.UseProgram(lightProgram.id());
+    lightProgram.bindBlock("Layers", kLayersBlock);
+    layersBuffer.bind(kLayersBlock);
+    bindClouds(lightProgram, 0);
+    light->draw(lightProgram, framebuffer, view.frames == 0 ? 1 : scene.quality.lightFrames);
+    block.volume = light->params();
+    layersBuffer.upload(&block, sizeof block);
+  }
+  host = hostParams(block.air, light ? &block.volume : nullptr, m, sky.light());
 }
 
 void Renderer::State::bindClouds(const gl::Program& program, int unit) const {
@@ -581,9 +652,11 @@ void Renderer::prepare(View& view, const Frame& frame) {
   const Drift drift{s.scene.wind.speed, s.scene.wind.from, frame.time};
   const FrameParams params =
       frameParams(frame, std::max(v.width, 1), std::max(v.height, 1), std::max(v.interleave, 1), s.scene.quality, 0);
+  s.surround(v, place);
   s.skyPass(position);
-  s.weatherPass(place, drift);
-  s.lightPass(frame, position, drift, params);
+  s.weatherPass(v, place, drift);
+  s.lightPass(v, frame, position, drift, params);
+  v.lightDrawn = true;
   s.keepForHost(v, frame, params);
   s.gl.check("preparing a frame");
 }
@@ -639,6 +712,7 @@ void Renderer::render(View& view, const Frame& frame) {
   s.makeTargets(v, frame);
   const glm::dvec3 position = eastNorthUp(frame.position, frame.up);
   const glm::dvec2 place = placeOf(position, frame);
+  s.surround(v, place);
   const Drift drift{s.scene.wind.speed, s.scene.wind.from, frame.time};
 
   if (v.exposure != s.exposure()) {
@@ -666,9 +740,10 @@ void Renderer::render(View& view, const Frame& frame) {
   s.lightningOf(place, frame.time);
   s.skyPass(position);
   s.timers.mark("sky tables");
-  s.weatherPass(place, drift);
+  s.weatherPass(v, place, drift);
   s.timers.mark("weather");
-  s.lightPass(frame, position, drift, params);
+  s.lightPass(v, frame, position, drift, params);
+  v.lightDrawn = false;
   s.timers.mark("light volume");
   s.marchPass(v, frame);
   s.timers.mark("march");
@@ -718,14 +793,15 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   add("nubis base shape", s.nubisBase);
   add("nubis detail", s.nubisDetail);
   add("curl", s.curl);
-  if (s.weather) {
-    add("weather", s.weather->main());
-    add("weather extra", s.weather->extra());
-    add("weather bounds", s.weather->bounds());
+  const std::shared_ptr<Surroundings>& around = view.state_->around;
+  if (around && around->weather) {
+    add("weather", around->weather->main());
+    add("weather extra", around->weather->extra());
+    add("weather bounds", around->weather->bounds());
   }
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
-  if (s.light)
-    for (const auto& [name, texture] : s.light->textures()) add(name, *texture);
+  if (around && around->light)
+    for (const auto& [name, texture] : around->light->textures()) add(name, *texture);
   add("grid index", s.grids.index());
   add("grid bricks", s.grids.bricks());
   add("no map", s.white);

@@ -56,7 +56,8 @@ class View {
   ~View();
   View(View&&) noexcept;
   View& operator=(View&&) noexcept;
-  // Forgets what it has seen: call it after a cut.
+  // Forgets what it has seen: call it after a cut. The next frame waits for weather and light that are complete,
+  // however long that takes; other frames spread such work (quality.light_frames).
   void reset();
 
  private:
@@ -141,6 +142,10 @@ class Renderer {
   // Takes over the sky. Only what has changed since the last call is made anew.
   void setScene(const Scene& scene, const CustomTextures& textures = {});
 
+  // Takes over the sky's quality alone, but for its preset, which sizes what is cached. Quick for what a Governor
+  // changes: shaders, tables and the views' histories are kept. Throws Error (failed) before setScene().
+  void setQuality(const Quality& quality);
+
   // Draws. Leaves the host's OpenGL state as it was, but for the contents of the target.
   void render(View& view, const Frame& frame);
 
@@ -169,7 +174,8 @@ class Renderer {
   void countSamples(bool on);
   // Of the last frame; waits for the driver.
   FrameCost lastCost();
-  // Every texture and target: the renderer's own and, after them, the view's.
+  // Every texture and target: the renderer's own, what is cached round the view's eye (views within 900 m of each other
+  // share it), and the view's.
   std::vector<MemoryRow> memory(const View& view) const;
 
  private:

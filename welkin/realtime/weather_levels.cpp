@@ -1,5 +1,6 @@
 #include "welkin/realtime/weather_levels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -8,8 +9,9 @@
 namespace welkin::realtime {
 
 namespace {
-constexpr double kLeash = 0.08;  // share of a level's edge that the camera may move before it is drawn again
-constexpr int kCell = 4;         // texels of a cell of the bounds
+constexpr double kLeash = 0.08;   // share of a level's edge that the camera may move before it is drawn again
+constexpr double kUseless = 0.3;  // the same after which it is of no use
+constexpr int kCell = 4;          // texels of a cell of the bounds
 }  // namespace
 
 WeatherExtent weatherExtent(QualityPreset preset) {
@@ -28,37 +30,69 @@ WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int
                   std::string(shaderSource("welkin/realtime/shaders/weather_bounds.frag.glsl")), shaderSource),
       levels_(static_cast<std::size_t>(layers) * static_cast<std::size_t>(extent.levels)) {}
 
+bool WeatherLevels::fits(const WeatherExtent& extent, int layers) const {
+  return extent.texels == extent_.texels && extent.levels == extent_.levels && extent.finest == extent_.finest &&
+         extent.ratio == extent_.ratio &&
+         levels_.size() == static_cast<std::size_t>(layers) * static_cast<std::size_t>(extent.levels);
+}
+
+void WeatherLevels::change() {
+  for (Level& level : levels_) level.changed = true;
+}
+
+bool WeatherLevels::changing() const {
+  return std::any_of(levels_.begin(), levels_.end(), [](const Level& l) { return l.shown && l.changed; });
+}
+
+double WeatherLevels::away(int level, const Level& cached, const glm::dvec2& inAir) const {
+  const glm::dvec2 way = glm::abs(inAir - cached.centre);
+  return std::max(way.x, way.y) / extent_.edge(level);
+}
+
 int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
                           const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
-                          const gl::Texture& map) {
+                          const gl::Texture& map, int most) {
   const glm::dvec2 inAir = position - driftOffset(drift);
-  int drawn = 0;
+  const int first = index * extent_.levels;
+  const auto at = [&](int level) -> Level& { return levels_[static_cast<std::size_t>(first + level)]; };
+  std::vector<int> useless, stale;
   for (int level = 0; level < extent_.levels; ++level) {
-    const int slice = index * extent_.levels + level;
-    Level& cached = levels_[static_cast<std::size_t>(slice)];
-    const glm::dvec2 away = glm::abs(inAir - cached.centre);
-    if (cached.fresh && std::max(away.x, away.y) < kLeash * extent_.edge(level)) continue;
-    cached.centre = levelCentre(extent_, level, inAir);
-    // Drawn with the level's centre as anchor, in still air.
-    const law::WeatherParams params =
-        weatherParams(layer, cached.centre, Drift{drift.windSpeed, drift.windFrom, 0.0}, seed);
-    buffer.upload(&params, sizeof params);
-    buffer.bind(0);
-    gl_.UseProgram(program.id());
-    program.bindBlock("Weather", 0);
-    gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, map.id());
-    gl_.Uniform1i(program.uniform("uMap"), 0);
-    gl_.Uniform4f(program.uniform("uLevel"), 0.0f, 0.0f, static_cast<float>(extent_.edge(level)),
-                  layer.cloud.shape == LayerShape::nubis ? 1.0f : 0.0f);
-    const gl::Texture* targets[] = {&main_, &extra_};
-    framebuffer.target(targets, slice);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-    fillBounds(layer, level, slice, framebuffer);
-    cached.fresh = true;
-    ++drawn;
+    const double far = away(level, at(level), inAir);
+    if (!at(level).shown || far > kUseless)
+      useless.push_back(level);
+    else if (at(level).changed || far >= kLeash)
+      stale.push_back(level);
   }
-  return drawn;
+  std::stable_sort(stale.begin(), stale.end(), [&](int a, int b) { return at(a).drawn < at(b).drawn; });
+  const int left = std::max(most - static_cast<int>(useless.size()), 0);
+  if (left < static_cast<int>(stale.size())) stale.resize(static_cast<std::size_t>(left));
+  stale.insert(stale.begin(), useless.begin(), useless.end());
+  for (const int level : stale) {
+    at(level) = {levelCentre(extent_, level, inAir), true, false, ++count_};
+    fill(level, first + level, layer, drift, seed, program, framebuffer, buffer, map);
+  }
+  return static_cast<int>(stale.size());
+}
+
+void WeatherLevels::fill(int level, int slice, const Layer& layer, const Drift& drift, int seed,
+                         const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
+                         const gl::Texture& map) {
+  // Drawn with the level's centre as anchor, in still air.
+  const law::WeatherParams params = weatherParams(layer, levels_[static_cast<std::size_t>(slice)].centre,
+                                                  Drift{drift.windSpeed, drift.windFrom, 0.0}, seed);
+  buffer.upload(&params, sizeof params);
+  buffer.bind(0);
+  gl_.UseProgram(program.id());
+  program.bindBlock("Weather", 0);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, map.id());
+  gl_.Uniform1i(program.uniform("uMap"), 0);
+  gl_.Uniform4f(program.uniform("uLevel"), 0.0f, 0.0f, static_cast<float>(extent_.edge(level)),
+                layer.cloud.shape == LayerShape::nubis ? 1.0f : 0.0f);
+  const gl::Texture* targets[] = {&main_, &extra_};
+  framebuffer.target(targets, slice);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  fillBounds(layer, level, slice, framebuffer);
 }
 
 void WeatherLevels::fillBounds(const Layer& layer, int level, int slice, gl::Framebuffer& framebuffer) {

@@ -14,13 +14,23 @@ WeatherExtent weatherExtent(QualityPreset preset);
 
 class WeatherLevels {
  public:
+  static constexpr int kAll = 1 << 20;
+
   WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers);
 
-  // Makes what layer `index` lacks for a camera at `position`. `map`: its authoring picture (a white texel if none).
-  // Returns the number of levels drawn. Leaves framebuffer, program and viewport changed.
+  // Whether the weather of so many layers would be kept in the same textures.
+  bool fits(const WeatherExtent& extent, int layers) const;
+  // The layers have changed: every level is out of date, and is shown until its turn comes.
+  void change();
+  // Whether there are levels from before the last change().
+  bool changing() const;
+
+  // Makes what layer `index` lacks for a camera at `position`: all levels that are of no use there and, of those that
+  // have but to be brought up to date, so many (`most`), those that have waited longest. `map`: its authoring picture
+  // (a white texel if none). Returns the number of levels drawn. Leaves framebuffer, program and viewport changed.
   int update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
              const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
-             const gl::Texture& map);
+             const gl::Texture& map, int most = kAll);
 
   // For positions relative to `position`.
   law::ClipParams params(int index, const glm::dvec2& position, const Drift& drift) const;
@@ -33,8 +43,13 @@ class WeatherLevels {
  private:
   struct Level {
     glm::dvec2 centre{0.0};  // in the air's own frame, which drifts with the wind
-    bool fresh = false;
+    bool shown = false;      // holds weather
+    bool changed = false;    // from before the last change
+    long drawn = 0;          // when, counted in levels
   };
+  double away(int level, const Level& cached, const glm::dvec2& inAir) const;
+  void fill(int level, int slice, const Layer& layer, const Drift& drift, int seed, const gl::Program& program,
+            gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer, const gl::Texture& map);
   void fillBounds(const Layer& layer, int level, int slice, gl::Framebuffer& framebuffer);
 
   const gl::Api& gl_;
@@ -42,6 +57,7 @@ class WeatherLevels {
   gl::Texture main_, extra_, bounds_;
   gl::Program boundsPass_;
   std::vector<Level> levels_;  // layer by layer
+  long count_ = 0;             // of levels drawn
 };
 
 }  // namespace welkin::realtime

@@ -24,6 +24,7 @@ Quality qualityPreset(QualityPreset preset) {
       q.interleave = 1;
       q.stepScale = 0.7f;
       q.lightSteps = 12;
+      q.lightFrames = 1;
       q.ambientSteps = 4;
       break;
   }

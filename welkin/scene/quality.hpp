@@ -22,6 +22,7 @@ struct Quality {
   bool jitter = true;
   bool reprojection = true;
   bool lightVolume = true;
+  int lightFrames = 24;
   bool averageHistory = false;
   bool cheapSearch = true;
   bool stepsByAngle = true;
@@ -33,7 +34,8 @@ struct FieldTable<Quality> {
   static auto make() {
     return fieldRows(
         field<&Quality::preset>("preset", "sets every other value of this table; values given besides it win"),
-        field<&Quality::historyScale>("history_scale", {1, 2}, "pixels of the picture to one of the cloud history"),
+        field<&Quality::historyScale>("history_scale", {1, 2, 3, 4},
+                                      "pixels of the picture to one of the cloud history"),
         field<&Quality::interleave>("interleave", {1, 2, 4}, "each frame marches one pixel in a block of this edge"),
         field<&Quality::stepScale>("step_scale", {0.05, 20}, {0.25, 4}, "length of the march's steps, as a multiple"),
         field<&Quality::lightSteps>("light_steps", {1, 16}, {},
@@ -45,6 +47,8 @@ struct FieldTable<Quality> {
         field<&Quality::jitter>("jitter", "shifts the samples of every pixel and frame: noise instead of bands"),
         field<&Quality::lightVolume>("light_volume",
                                      "takes the light of what is farther off from a volume round the camera"),
+        field<&Quality::lightFrames>("light_frames", {1, 240}, {1, 60},
+                                     "frames over which a level of that volume is made anew; 1: all at once"),
         field<&Quality::reprojection>("reprojection", "reuses the pixels of earlier frames"),
         field<&Quality::averageHistory>("average_history",
                                         "softens reprojected pixels by the mean of their neighbours (000 ch. 4.4)"),

@@ -3,11 +3,10 @@
 // the cell below plus Q; on the way up (light_column.frag.glsl) both are put together.
 #include "welkin/realtime/shaders/light_level.glsl"
 
-uniform sampler3D uSun;      // optical depth toward the sun, all levels
-uniform sampler3D uDiffuse;  // the light that is known so far, all levels
+uniform sampler3D uSun;      // optical depth toward the sun
+uniform sampler3D uDiffuse;  // the light that is known so far
 uniform sampler2D uShareAbove, uLightAbove;  // P and Q of the slice above
 uniform float uSideways;     // 0 where nothing is known of neighbours yet: columns stand alone
-uniform int uFirst;          // first slice of the level in the volumes of all levels
 
 in vec2 vUv;
 layout(location = 0) out vec4 oLight;
@@ -27,7 +26,7 @@ void main() {
     ivec3 at = ivec3(clamp(cell.xy + ivec2(i == 0 ? -1 : i == 1 ? 1 : 0, i == 2 ? -1 : i == 3 ? 1 : 0), 0, last), cell.z);
     vec2 way = exchange(own, densityAt(at), width);
     way.x *= uSideways;
-    sum += way.x * texelFetch(uDiffuse, at + ivec3(0, 0, uFirst), 0).xy + vec2(0.0, 0.5 * way.y);
+    sum += way.x * texelFetch(uDiffuse, at, 0).xy + vec2(0.0, 0.5 * way.y);
     weights += way.x + way.y;
   }
   vec2 up = exchange(own, cell.z == top ? 0.0 : densityAt(cell + ivec3(0, 0, 1)), uSlice.y);
@@ -43,7 +42,7 @@ void main() {
   // half of the cell before it at least.
   float reduced = kReduced * texelFetch(uDensity, cell, 0).y;
   float half_ = max(0.5 * reduced * min(width, uSlice.y), 0.01);
-  float tau = kReduced * texelFetch(uSun, cell + ivec3(0, 0, uFirst), 0).x;
+  float tau = kReduced * texelFetch(uSun, cell, 0).x;
   sum.x += reduced * exp(half_ - max(tau, half_)) * (1.0 - exp(-2.0 * half_)) / (2.0 * half_);
   oLight = vec4(sum / weights, 0.0, 1.0);
   oShare = vec4(down.x / weights);
