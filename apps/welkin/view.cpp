@@ -1,5 +1,5 @@
 // welkin view: a window on a sky.
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "apps/welkin/command.hpp"
 #include "apps/welkin/picture.hpp"
@@ -42,7 +42,10 @@ void view(const ViewArguments& arguments) {
   for (const Preset& p : findPresets()) options.presets.push_back({p.name, p.genus, p.sentence, p.file});
   options.loadTextures = [](const Scene& scene) {
     realtime::CustomTextures textures;
-    textures.weatherMaps = weatherMaps(scene);
+    // Without pictures the renderer keeps the weather that it has.
+    const bool pictures = std::any_of(scene.layers.begin(), scene.layers.end(),
+                                      [](const Layer& layer) { return !layer.weather.map.empty(); });
+    if (pictures) textures.weatherMaps = weatherMaps(scene);
     textures.grids = loadGrids(scene);
     return textures;
   };

@@ -90,7 +90,7 @@ bool isPlace(const std::string& word) {
 // What is wrong with the arguments of a step, or an empty text.
 std::string wrongWith(const ScriptStep& step, const Verb& verb) {
   const auto& w = step.words;
-  const std::string usage = fmt::format("write {}", verb.usage);
+  std::string usage = fmt::format("write {}", verb.usage);
   if (w.size() < verb.least || w.size() > verb.most) return usage;
   const bool button = verb.name == "press" || verb.name == "release" || verb.name == "click" || verb.name == "drag";
   const std::size_t places = verb.name == "drag" ? 2 : verb.name == "move" || verb.name == "click" ? 1 : 0;
@@ -126,6 +126,7 @@ Script parseScript(std::string_view text, const std::string& name) {
     const auto verb = std::find_if(kVerbs.begin(), kVerbs.end(), [&](const Verb& v) { return v.name == word; });
     if (verb == kVerbs.end()) {
       std::vector<std::string> names;
+      names.reserve(kVerbs.size());
       for (const Verb& v : kVerbs) names.emplace_back(v.name);
       const std::string near = nearestName(word, names);
       refuse(name, number,

@@ -32,6 +32,32 @@ void drawHistory(const Workbench& bench) {
                    {ImGui::GetContentRegionAvail().x, 5.0f * ImGui::GetFontSize()});
 }
 
+void drawGovernor(Workbench& bench) {
+  Pace& pace = bench.pace;
+  ImGui::TextDisabled("while something moves:");
+  bool own = pace.scale <= 0.0f;
+  if (ImGui::Checkbox("resolution by itself", &own)) pace.scale = own ? 0.0f : 0.5f;
+  bench.interface.items.mark("scale by itself");
+  if (!own) {
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 9.0f);
+    float percent = 100.0f * pace.scale;
+    if (ImGui::SliderFloat("of the window's", &percent, 10.0f, 100.0f, "%.0f %%")) pace.scale = percent / 100.0f;
+    bench.interface.items.mark("scale");
+  }
+  bool governed = pace.wantedRate > 0.0f;
+  if (ImGui::Checkbox("hold the frame rate", &governed)) pace.wantedRate = governed ? 25.0f : 0.0f;
+  bench.interface.items.mark("hold rate");
+  if (governed) {
+    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 9.0f);
+    ImGui::SliderFloat("frames a second", &pace.wantedRate, 5.0f, 120.0f, "%.0f", ImGuiSliderFlags_Logarithmic);
+    bench.interface.items.mark("rate");
+  }
+  const Quality& now = bench.picture.quality();
+  ImGui::Text("drawn with: history 1/%d, interleave %dx%d, steps %.2f, light steps %d", now.historyScale,
+              now.interleave, now.interleave, static_cast<double>(now.stepScale), now.lightSteps);
+  ImGui::TextDisabled("At rest the window's resolution and the quality below.");
+}
+
 void drawMemory(const Workbench& bench) {
   std::size_t all = 0;
   const std::vector<realtime::MemoryRow> rows = bench.picture.memory();
@@ -55,12 +81,7 @@ void drawPace(Workbench& bench) {
   ImGui::BeginChild("##pace");
   ImGui::TextWrapped("%s%s", bench.picture.driver().c_str(),
                      bench.picture.softwareDriver() ? ": no GPU was found, the processor draws" : "");
-  ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 9.0f);
-  float percent = 100.0f * bench.pace.scale;
-  if (ImGui::SliderFloat("while it moves", &percent, 10.0f, 100.0f, "%.0f %%")) bench.pace.scale = percent / 100.0f;
-  bench.interface.items.mark("scale");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("resolution while something moves, as a share of the window's edge; at rest it is the window's");
+  drawGovernor(bench);
   if (ImGui::Checkbox("count density samples (slower)", &bench.countSamples))
     bench.picture.countSamples(bench.countSamples);
   bench.interface.items.mark("count samples");

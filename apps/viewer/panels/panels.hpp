@@ -11,6 +11,9 @@ void drawFiles(Workbench& bench);
 // Opens the dialog of open, saveAs or savePicture.
 void askForFile(Workbench& bench, Action action);
 
+// The panel that an action opens, if it opens one.
+std::optional<Tab> tabOf(Action action);
+
 void drawGallery(Workbench& bench);
 void drawSun(Workbench& bench);
 void drawWind(Workbench& bench);

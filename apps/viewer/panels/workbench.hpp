@@ -24,7 +24,8 @@ struct Pace {
   double frameMs = 0.0;              // smoothed, of frames that drew the sky
   std::array<float, kKept> times{};  // of the last ones, ms; the oldest at `next`
   std::size_t next = 0;
-  float scale = 1.0f;          // of the resolution while something moves
+  // While something moves: share of the window's resolution, 0 to choose it; frames a second to be held, 0 for none.
+  float scale = 0.0f, wantedRate = 0.0f;
   realtime::FrameCost cost{};  // of the last frame, while its panel is shown
 };
 

@@ -8,6 +8,7 @@
 #include "welkin/gl/objects.hpp"
 #include "welkin/gl/state.hpp"
 #include "welkin/realtime/frame_params.hpp"
+#include "welkin/realtime/governor.hpp"
 #include "welkin/realtime/shader_sources.hpp"
 
 namespace welkin::viewer {
@@ -74,6 +75,12 @@ Image readTexture(const gl::Api& gl, gl::Framebuffer& framebuffer, const gl::Tex
   return image;
 }
 
+// Frames until every pixel has been marched.
+int turnsOf(const Quality& quality) {
+  const int edge = quality.reprojection ? quality.interleave : 1;
+  return edge * edge;
+}
+
 // A view with its target.
 struct Canvas {
   gl::Texture light;
@@ -107,7 +114,10 @@ struct SkyPicture::State {
   gl::Texture meter;
   Canvas moving, still;
   bool stillShown = false;
-  int turns = 16;  // frames of one round
+  Quality wanted, current;  // the scene's; the renderer's
+  double target = 0.0;      // s a frame while something moves; 0: ungoverned
+  std::optional<realtime::Governor> governor;
+  bool drewMoving = false;  // the last frame
   // What was drawn last.
   std::optional<Camera> camera;
   double time = 0.0;
@@ -126,6 +136,27 @@ struct SkyPicture::State {
   }
 
   const Canvas& shown() const { return stillShown ? still : moving; }
+
+  void makeGovernor() {
+    governor.reset();
+    if (target <= 0.0) return;
+    governor.emplace(realtime::GovernorSettings{.target = target, .best = wanted});
+  }
+  const Quality& movingQuality() const { return governor ? governor->quality() : wanted; }
+
+  // Whether the moving picture is as good as one at rest.
+  bool movingIsFull() const {
+    return moving.light && moving.light.width() == width && moving.light.height() == height &&
+           movingQuality() == wanted;
+  }
+  // Frames after which the moving picture makes way: one round, so that every pixel has been marched.
+  int movingFrames() const { return (movingIsFull() ? kRounds : 1) * turnsOf(movingQuality()); }
+
+  void use(const Quality& quality) {
+    if (quality == current) return;
+    renderer.setQuality(quality);
+    current = quality;
+  }
 
   void render(Canvas& canvas) {
     realtime::Frame frame = realtime::frameOf(*camera, canvas.light.width(), canvas.light.height());
@@ -146,11 +177,26 @@ SkyPicture::~SkyPicture() = default;
 void SkyPicture::setScene(const Scene& scene, const realtime::CustomTextures& textures) {
   State& s = *state_;
   s.renderer.setScene(scene, textures);
-  const int edge = scene.quality.reprojection ? scene.quality.interleave : 1;
-  s.turns = edge * edge;
+  s.current = scene.quality;
   s.changed = true;
-  // Pixels of the old sky among those of the new one would be seen; few new ones, filled in, look better.
-  s.moving.view.reset();
+  if (s.wanted == scene.quality) return;
+  s.wanted = scene.quality;
+  s.makeGovernor();
+}
+
+void SkyPicture::cut() {
+  state_->moving.view.reset();
+  state_->changed = true;
+  if (state_->governor) state_->governor->cut();
+}
+
+void SkyPicture::govern(double seconds) {
+  state_->target = seconds;
+  state_->makeGovernor();
+}
+
+void SkyPicture::took(double seconds) {
+  if (state_->governor && state_->drewMoving) state_->governor->take(seconds);
 }
 
 bool SkyPicture::draw(const Camera& camera, double time, int width, int height, float scale) {
@@ -162,7 +208,7 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
   };
   const bool moves = s.changed || !s.camera || !sameFields(*s.camera, camera) || s.time != time || s.width != width ||
                      s.height != height;
-  s.changed = false;
+  s.changed = s.drewMoving = false;
   s.camera = camera;
   s.time = time;
   s.width = width;
@@ -174,25 +220,25 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
     s.moving.fit(s.gl, scaled(width), scaled(height));
     s.moving.frames = 0;
   }
-  // One round at the moving picture's resolution, so that every pixel has been marched; then the full one.
-  const bool full = s.moving.light.width() == width && s.moving.light.height() == height;
-  if (s.moving.frames < (full ? kRounds : 1) * s.turns) {
+  if (s.moving.frames < s.movingFrames()) {
+    s.use(s.movingQuality());
     s.render(s.moving);
+    s.drewMoving = true;
     return true;
   }
-  if (full || settled()) return false;
+  if (settled()) return false;
+  s.use(s.wanted);
   s.still.fit(s.gl, width, height);
   if (s.still.frames == 0) s.still.view.reset();
   s.render(s.still);
-  s.stillShown = s.still.frames >= s.turns;
+  s.stillShown = s.still.frames >= turnsOf(s.wanted);
   return true;
 }
 
 bool SkyPicture::settled() const {
   const State& s = *state_;
-  if (s.changed || !s.moving.light) return false;
-  const bool full = s.moving.light.width() == s.width && s.moving.light.height() == s.height;
-  return (full ? s.moving : s.still).frames >= kRounds * s.turns;
+  if (s.changed || !s.moving.light || s.moving.frames < s.movingFrames()) return false;
+  return s.movingIsFull() || s.still.frames >= kRounds * turnsOf(s.wanted);
 }
 
 void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& film, const Overlay& overlay) const {
@@ -243,6 +289,7 @@ Image SkyPicture::read() const {
   return readTexture(s.gl, s.scratch, s.shown().light);
 }
 
+const Quality& SkyPicture::quality() const { return state_->current; }
 int SkyPicture::width() const { return state_->shown().light.width(); }
 int SkyPicture::height() const { return state_->shown().light.height(); }
 realtime::FrameCost SkyPicture::cost() const { return state_->renderer.lastCost(); }

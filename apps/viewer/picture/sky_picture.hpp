@@ -28,9 +28,16 @@ class SkyPicture {
 
   // Throws Error (badInput) for what the scene names and cannot be used.
   void setScene(const Scene& scene, const realtime::CustomTextures& textures);
+  // Forgets what was seen: the next frame shows the new sky whole, however long that takes.
+  void cut();
+
+  // While something moves, quality gives way so that a frame takes `seconds`; 0: it does not.
+  void govern(double seconds);
+  // How long the last frame took, in all.
+  void took(double seconds);
 
   // Draws what this frame needs: nothing, when the picture has come to rest. `scale`: of the resolution while something
-  // moves, in (0, 1]. Returns whether it has drawn.
+  // moves, in (0, 1]. Returns whether it has drawn. What it draws at rest is the scene's own quality.
   bool draw(const Camera& camera, double time, int width, int height, float scale);
   // Nothing more would change.
   bool settled() const;
@@ -49,6 +56,8 @@ class SkyPicture {
 
   // The picture on screen: linear, kcd/m^2.
   Image read() const;
+  // The quality of the last frame.
+  const Quality& quality() const;
   // Of the picture drawn last, in pixels.
   int width() const;
   int height() const;

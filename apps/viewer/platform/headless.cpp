@@ -1,4 +1,7 @@
 // A picture in memory in place of a window.
+#include <chrono>
+#include <thread>
+
 #include "apps/viewer/platform/platform.hpp"
 #include "welkin/gl/context.hpp"
 #include "welkin/gl/objects.hpp"
@@ -17,7 +20,8 @@ class Headless final : public Platform {
   unsigned framebuffer() const override { return static_cast<unsigned>(name_); }
   int width() const override { return colour_.width(); }
   int height() const override { return colour_.height(); }
-  std::vector<Event> poll(int /*milliseconds*/) override {
+  std::vector<Event> poll(int milliseconds) override {
+    if (events_.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
     std::vector<Event> events;
     std::swap(events, events_);
     return events;
