@@ -53,6 +53,7 @@ Viewer::Viewer(const ViewerOptions& options)
   bench_.goTo = [this](int number) { bookmark(number, false); };
   bench_.keep = [this](int number) { bookmark(number, true); };
   bench_.leave = [this] { running_ = false; };
+  bench_.wantedTab = Tab::parameters;
   bench_.pace.scale = static_cast<float>(options.scale);
   // Scripts count frames, not seconds, and must not depend on the machine's pace.
   if (!script_) bench_.pace.wantedRate = picture_.softwareDriver() ? 25.0f : 60.0f;

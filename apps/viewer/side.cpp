@@ -37,7 +37,7 @@ void Viewer::drawPanels() {
   drawStatus(bench_);
   const float bar = ImGui::GetFrameHeight();
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  if (panelWidth_ == 0.0f) panelWidth_ = std::min(ImGui::GetFontSize() * 28.0f, 0.5f * screen.x);
+  if (panelWidth_ == 0.0f) panelWidth_ = std::min(ImGui::GetFontSize() * 31.0f, 0.5f * screen.x);
   ImGui::SetNextWindowPos({0.0f, bar});
   ImGui::SetNextWindowSizeConstraints({1.0f, 1.0f}, {screen.x * 0.8f, screen.y});
   ImGui::SetNextWindowSize({panelWidth_, std::max(screen.y - 2.0f * bar, 1.0f)});

@@ -28,7 +28,8 @@ class ViewCommand : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
   Outcome play(const std::string& script, const std::string& options = "", const std::string& before = "") const {
     std::ofstream(path("script.txt")) << script;
-    return test::run("view --script " + path("script.txt") + " --size 320x240 --set quality.preset=low " +
+    return test::run("view --script " + path("script.txt") +
+                         " --size 640x360 --set quality.preset=low --set quality.interleave=2 " +
                          (before.empty() ? "--headless " : "") + options,
                      before);
   }
@@ -81,7 +82,7 @@ TEST_F(ViewCommand, ASessionEndsWithTheSamePicture) {
 }
 
 TEST_F(ViewCommand, TheSameScriptDrawsTheSamePicture) {
-  const std::string script = "frames 2\nhold w 5\ndrag 250,100 280,120\nframes 4\nscreenshot ";
+  const std::string script = "frames 2\nhold w 5\ndrag 450,150 480,170\nframes 4\nscreenshot ";
   ASSERT_EQ(play(script + path("a.png")).code, 0);
   ASSERT_EQ(play(script + path("b.png")).code, 0);
   EXPECT_EQ(slurp(path("a.png")), slurp(path("b.png")));
@@ -91,11 +92,11 @@ TEST_F(ViewCommand, WrongFilesAndOddSizesDoNoHarm) {
   std::ofstream(path("wrong.sky.toml")) << "format = 1\n[sun]\nelevaton = 3\n";
   std::ofstream(path("binary.toml"), std::ios::binary) << std::string(1000, '\0');
   const Outcome outcome = play("frames 1\ndrop " + path("wrong.sky.toml") + "\nframes 2\ndrop " + path("binary.toml") +
-                               "\nframes 2\ndrop /nowhere\nsize 1 1\nframes 2\nsize 40 3000\nframes 2\nsize 320 240\n"
+                               "\nframes 2\ndrop /nowhere\nsize 1 1\nframes 2\nsize 40 3000\nframes 2\nsize 640 360\n"
                                "frames 2\nscreenshot " +
                                path("a.png") + "\n");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(loadPng(path("a.png")).width, 320);
+  EXPECT_EQ(loadPng(path("a.png")).width, 640);
 }
 
 // The real window, where there is a display server to be had.
@@ -105,8 +106,8 @@ TEST_F(ViewCommand, OpensAWindowUnderXvfb) {
                                "xvfb-run -a -s '-screen 0 800x600x24'");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Image window = loadPng(path("window.png"));
-  EXPECT_EQ(window.width, 320);
-  EXPECT_EQ(window.height, 240);
+  EXPECT_EQ(window.width, 640);
+  EXPECT_EQ(window.height, 360);
   // The panel is dark, the sky is not.
   EXPECT_GT(*std::max_element(window.pixels.begin(), window.pixels.end()), 0.6f);
 }

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "apps/viewer/model/actions.hpp"
 #include "apps/viewer/model/command_line.hpp"
@@ -112,6 +114,22 @@ TEST(SimpleFields, AllExist) {
   EXPECT_EQ(simple, simpleFieldCount());
 }
 
+// As a POSIX shell splits a line without variables.
+std::vector<std::string> shellWords(const std::string& line) {
+  std::vector<std::string> words(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '\'')
+      quoted = !quoted;
+    else if (line[i] == '\\' && !quoted)
+      words.back() += line[++i];
+    else if (line[i] == ' ' && !quoted)
+      words.emplace_back();
+    else
+      words.back() += line[i];
+  return words;
+}
+
 TEST(CommandLine, NamesWhatDiffersAndNothingElse) {
   Scene scene;
   EXPECT_EQ(commandLine(scene, Scene{}, ""), "welkin render -o sky.png");
@@ -127,9 +145,11 @@ TEST(CommandLine, SetsReadBackAsTheSameScene) {
   scene.sun.elevation = 0.1f;
   scene.wind.from = 0.3f;
   Scene read;
-  const std::string line = commandLine(scene, Scene{}, "");
-  for (std::size_t at = line.find("--set "); at != std::string::npos; at = line.find("--set ", at + 1))
-    setField(read, line.substr(at + 6, line.find(' ', at + 6) - at - 6));
+  int sets = 0;
+  const std::vector<std::string> words = shellWords(commandLine(scene, Scene{}, ""));
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    if (words[i] == "--set") setField(read, words[i + 1]), ++sets;
+  EXPECT_EQ(sets, 3);
   EXPECT_TRUE(sameScene(scene, read));
 }
 

@@ -1,5 +1,6 @@
 #include "apps/viewer/model/script.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "welkin/base/error.hpp"
@@ -28,11 +29,11 @@ std::vector<std::string> play(const std::string& text, const FindItem& find = kN
     std::string line;
     for (const Event& e : frame.events) {
       if (!line.empty()) line += ' ';
-      if (e.kind == EventKind::mouseMove) line += "move " + std::to_string(int(e.x)) + "," + std::to_string(int(e.y));
+      if (e.kind == EventKind::mouseMove) line += fmt::format("move {},{}", e.x, e.y);
       if (e.kind == EventKind::mouseButton) line += e.down ? "press" : "release";
-      if (e.kind == EventKind::key) line += (e.down ? "+" : "-") + std::string(nameOf(e.key));
-      if (e.kind == EventKind::text) line += "text " + e.text;
-      if (e.kind == EventKind::drop) line += "drop " + e.text;
+      if (e.kind == EventKind::key) line += fmt::format("{}{}", e.down ? '+' : '-', nameOf(e.key));
+      if (e.kind == EventKind::text) line += fmt::format("text {}", e.text);
+      if (e.kind == EventKind::drop) line += fmt::format("drop {}", e.text);
     }
     if (frame.command) line += frame.command->verb;
     frames.push_back(line);

@@ -33,11 +33,13 @@ bool drawCard(Workbench& bench, std::size_t index, float width) {
   }
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low = corner, high{corner.x + width, corner.y + height};
-  if (const unsigned texture = bench.thumbnails.texture(index))
+  if (const unsigned texture = bench.thumbnails.texture(index)) {
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): ImGui's backend takes a texture's name as a pointer.
     list.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture)), low, high, {0, 0}, {1, 1},
                          0xffffffff, 5.0f);
-  else
+  } else {
     list.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg), 5.0f);
+  }
   const bool current = bench.document.origin().name == preset.name;
   if (lit || current)
     list.AddRect(low, high, ImGui::GetColorU32(current ? ImGuiCol_CheckMark : ImGuiCol_NavHighlight), 5.0f, 0, 2.0f);
