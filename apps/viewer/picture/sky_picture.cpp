@@ -144,13 +144,8 @@ struct SkyPicture::State {
   }
   const Quality& movingQuality() const { return governor ? governor->quality() : wanted; }
 
-  // Whether the moving picture is as good as one at rest.
-  bool movingIsFull() const {
-    return moving.light && moving.light.width() == width && moving.light.height() == height &&
-           movingQuality() == wanted;
-  }
   // Frames after which the moving picture makes way: one round, so that every pixel has been marched.
-  int movingFrames() const { return (movingIsFull() ? kRounds : 1) * turnsOf(movingQuality()); }
+  int movingFrames() const { return turnsOf(movingQuality()); }
 
   void use(const Quality& quality) {
     if (quality == current) return;
@@ -227,6 +222,7 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
     return true;
   }
   if (settled()) return false;
+  // A view that has seen nothing: what a picture at rest looks like does not depend on what came before.
   s.use(s.wanted);
   s.still.fit(s.gl, width, height);
   if (s.still.frames == 0) s.still.view.reset();
@@ -238,7 +234,7 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
 bool SkyPicture::settled() const {
   const State& s = *state_;
   if (s.changed || !s.moving.light || s.moving.frames < s.movingFrames()) return false;
-  return s.movingIsFull() || s.still.frames >= kRounds * turnsOf(s.wanted);
+  return s.still.frames >= kRounds * turnsOf(s.wanted);
 }
 
 void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& film, const Overlay& overlay) const {
