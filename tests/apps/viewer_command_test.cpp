@@ -92,7 +92,8 @@ TEST_F(ViewCommand, WrongFilesAndOddSizesDoNoHarm) {
   std::ofstream(path("wrong.sky.toml")) << "format = 1\n[sun]\nelevaton = 3\n";
   std::ofstream(path("binary.toml"), std::ios::binary) << std::string(1000, '\0');
   const Outcome outcome = play("frames 1\ndrop " + path("wrong.sky.toml") + "\nframes 2\ndrop " + path("binary.toml") +
-                               "\nframes 2\ndrop /nowhere\nsize 1 1\nframes 2\nsize 40 3000\nframes 2\nsize 640 360\n"
+                               "\nframes 2\ndrop /nowhere\nsize 1 1\nkey f2\nkey f4\nkey f5\nkey f6\nkey f7\nkey "
+                               "f8\nkey f11\nsize 40 3000\nframes 2\nsize 640 360\n"
                                "frames 2\nscreenshot " +
                                path("a.png") + "\n");
   EXPECT_EQ(outcome.code, 0) << outcome.err;

@@ -6,7 +6,7 @@ namespace welkin::viewer {
 
 Dial beginDial(Workbench& bench, const char* name, float size) {
   const float room = ImGui::GetContentRegionAvail().x;
-  const float edge = std::min(size * ImGui::GetFontSize(), room);
+  const float edge = std::max(std::min(size * ImGui::GetFontSize(), room), 1.0f);
   ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 0.5f * (room - edge));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton(name, {edge, edge});
@@ -16,7 +16,7 @@ Dial beginDial(Workbench& bench, const char* name, float size) {
   Dial dial;
   dial.list = ImGui::GetWindowDrawList();
   dial.centre = {corner.x + 0.5f * edge, corner.y + 0.5f * edge};
-  dial.radius = 0.5f * edge - 1.1f * ImGui::GetFontSize();
+  dial.radius = std::max(0.5f * edge - 1.1f * ImGui::GetFontSize(), 1.0f);
   dial.active = ImGui::IsItemActive();
   return dial;
 }

@@ -32,7 +32,7 @@ std::array<float, kBins> histogramOf(const Image& light, double ev) {
 // The curve of greys: stops of light from left to right, what the screen shows upward.
 void drawCurve(Workbench& bench) {
   const Film film = bench.film;
-  const float width = ImGui::GetContentRegionAvail().x, height = 9.0f * ImGui::GetFontSize();
+  const float width = std::max(ImGui::GetContentRegionAvail().x, 1.0f), height = 9.0f * ImGui::GetFontSize();
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("##curve", {width, height});
   bench.interface.items.mark("tone curve");

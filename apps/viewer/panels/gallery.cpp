@@ -70,7 +70,8 @@ void drawGallery(Workbench& bench) {
   ImGui::BeginChild("##gallery");
   const float gap = ImGui::GetStyle().ItemSpacing.x, room = ImGui::GetContentRegionAvail().x;
   const int columns = std::max(1, static_cast<int>(std::floor(room / (ImGui::GetFontSize() * 11.0f))));
-  const float width = std::floor((room - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns));
+  const float width =
+      std::max(std::floor((room - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns)), 1.0f);
   for (std::size_t i = 0; i < bench.options.presets.size(); ++i) {
     if (static_cast<int>(i) % columns != 0) ImGui::SameLine();
     if (drawCard(bench, i, width)) bench.openPreset(bench.options.presets[i]);
