@@ -74,6 +74,31 @@ FrameParams frameParams(const Frame& frame, int width, int height, int interleav
   return p;
 }
 
+glm::dvec2 travelled(const FrameParams& params, const FrameParams& last) {
+  if (params.camera.forward.w > 0.5f || last.camera.forward.w > 0.5f) return glm::dvec2(0.0);
+  const auto onGrid = [&](const FrameParams& of) {
+    const glm::vec4 clip = of.clipFromWorld * glm::vec4(glm::vec3(params.camera.forward), 0.0f);
+    return clip.w > 0.0f ? glm::dvec2(clip) / static_cast<double>(clip.w) + 2.0 * glm::dvec2(of.lock) : glm::dvec2(1e9);
+  };
+  const glm::dvec2 way = 0.5 * (onGrid(params) - onGrid(last)) * glm::dvec2(params.size);
+  return glm::length(way) < static_cast<double>(params.size.x) ? way : glm::dvec2(0.0);
+}
+
+void lockGrid(FrameParams& params, const glm::dvec2& travel) {
+  const glm::dvec2 whole = glm::round(travel);
+  const glm::vec2 lock = glm::vec2(travel - whole) * glm::vec2(params.size.z, params.size.w);
+  params.lock = glm::vec4(lock, 0.0f, 0.0f);
+  params.camera.forward += 2.0f * (lock.x * params.camera.right + lock.y * params.camera.above);
+  const glm::mat4 rows = glm::transpose(params.clipFromWorld);
+  params.clipFromWorld =
+      glm::transpose(glm::mat4(rows[0] - 2.0f * lock.x * rows[3], rows[1] - 2.0f * lock.y * rows[3], rows[2], rows[3]));
+  const double block = params.timing.w;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double at = params.offset[axis] + whole[axis];
+    params.offset[axis] = static_cast<float>(at - block * std::floor(at / block));
+  }
+}
+
 void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& moved, const glm::dvec2& drifted,
                 History history, float share) {
   params.timing.y = share;

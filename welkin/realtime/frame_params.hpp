@@ -10,7 +10,7 @@ namespace welkin::realtime {
 struct FrameParams {
   law::CameraParams camera;
   glm::vec4 size, marchSize, offset, timing, depthInfo;
-  glm::vec4 previous0, previous1, previous3, wind, options, target;
+  glm::vec4 previous0, previous1, previous3, wind, options, target, lock;
   // Of positions relative to the eye, east-north-up; for a panorama to its own axes. The shaders' block ends before it.
   glm::mat4 clipFromWorld;
 };
@@ -19,14 +19,22 @@ struct FrameParams {
 FrameParams frameParams(const Frame& frame, int historyWidth, int historyHeight, int interleave, const Quality& quality,
                         int frames);
 
-// What a view's history holds: nothing; a picture to be reprojected; or, while a view that has not moved since it began
-// fills its blocks for the first time, marched pixels among others that are to be filled in.
-enum class History { none, picture, begun };
+// What a view's history holds: nothing; a picture to be reprojected; one of a view that stands still; or, while such a
+// view fills its blocks for the first time, marched pixels among others that are to be filled in.
+enum class History { none, moved, still, begun };
 
 // Fills in what leads back to the last frame. `moved`: how the eye moved; `drifted`: how the air moved; `share` of the
 // new sample in the history.
 void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& moved, const glm::dvec2& drifted,
                 History history, float share);
+
+// How far the picture has moved over the history's grid, in its pixels, since the view began: by turns of the camera
+// only, in the middle of the picture.
+glm::dvec2 travelled(const FrameParams& params, const FrameParams& last);
+
+// Puts the history's grid where the picture has moved to, whole pixels aside: turning then takes texels to texels,
+// which blurs nothing, and each is marched again after interleave^2 frames wherever it is by then.
+void lockGrid(FrameParams& params, const glm::dvec2& travel);
 
 // Whether two frames look the same way (position and time apart).
 // Whether something round a direction (to `radius` rad) may be in the picture.

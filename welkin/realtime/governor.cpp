@@ -14,7 +14,7 @@ namespace {
 // Shares of a frame of quality high, fitted to what the rungs cost on bench/governor.cpp's flight (llvmpipe): the
 // march, where each near step toward the sun costs kPerLightStep of a point and longer steps save less than they skip;
 // and what every pixel of the history and of the picture costs.
-constexpr double kMarch = 0.65, kHistory = 0.15, kPicture = 0.2, kPerLightStep = 0.12, kStepPower = 0.55;
+constexpr double kMarch = 0.7, kHistory = 0.18, kPicture = 0.12, kPerLightStep = 0.12, kStepPower = 0.55;
 
 constexpr int kCutFrames = 4;        // after a cut
 constexpr int kLag = 3;              // frames after a change whose times may still be of those before
@@ -27,6 +27,7 @@ constexpr double kFar = 1.25, kOver = 1.03;      // times over the target that c
 constexpr double kAimDown = 0.95, kAimUp = 0.9;  // where a change is meant to end
 constexpr double kMostRest = 0.9;                // share of a frame that may be out of reach
 constexpr double kMostRestDown = 0.5;            // the same while time is short: too far down is put right soon
+constexpr int kSlowestLight = 240;               // frames for a level of the light volume
 constexpr double kStepRatio = 1.2;               // between rungs that differ in step scale
 
 double median(std::vector<double> values) {
@@ -51,6 +52,8 @@ std::vector<Quality> ladder(const Quality& best, const Quality& worst) {
   const auto scaleTo = [&](int most) {
     while (q.historyScale < std::min(most, worst.historyScale)) {
       ++q.historyScale;
+      // Where so much has to be saved, light must not take more than clouds: it follows more slowly.
+      if (q.historyScale > 2 && q.lightFrames > 1) q.lightFrames = std::min(2 * q.lightFrames, kSlowestLight);
       push();
     }
   };

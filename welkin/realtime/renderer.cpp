@@ -81,6 +81,7 @@ struct View::State {
   bool lightDrawn = false;  // its frame to come has had its share of the light volume's work
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
+  glm::dvec2 travel{0.0};  // of the picture over the history's grid (frame_params.hpp), pixels
   double lastTime = 0.0;
   float exposure = 1.0f;  // factor on what the history holds
   law::HostParams host{};
@@ -98,6 +99,7 @@ void View::reset() {
   state_->frames = 0;
   state_->still = 0;
   state_->last.reset();
+  state_->travel = glm::dvec2(0.0);
 }
 
 struct Renderer::State {
@@ -192,6 +194,8 @@ struct Renderer::State {
   void makeWeather(const Scene& next, const CustomTextures& custom);
   void makeGrids(const Scene& next, const CustomTextures& custom);
   bool lit() const;
+  // Over how many frames weather and light may come; after a cut nobody has seen the old ones.
+  int framesOf(const View::State& view) const { return view.frames == 0 ? 1 : scene.quality.lightFrames; }
   void surround(View::State& view, const glm::dvec2& place);
   void makeMarch();
   void bindClouds(const gl::Program& program, int unit) const;
@@ -430,8 +434,7 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
 void Renderer::State::weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift) {
   if (!weather) return;
   const bool changing = weather->changing();
-  // After a cut nobody has seen the old weather.
-  const int most = view.frames == 0 ? WeatherLevels::kAll : 1;
+  const int most = framesOf(view) == 1 ? WeatherLevels::kAll : 1;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     weather->update(static_cast<int>(i), scene.layers[i], place, drift, scene.seed, weatherProgram, framebuffer,
                     weatherBuffer, maps[i] ? maps[i] : white, most);
@@ -467,13 +470,13 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
   layersBuffer.upload(&block, sizeof block);
   // Light follows weather that changes, or goes along when that has no end.
   around->waited = weather && weather->changing() ? around->waited + 1 : 0;
-  const bool waits = around->waited > 0 && around->waited <= kMostWait && view.frames > 0 && light && !light->lost();
+  const bool waits = around->waited > 0 && around->waited <= kMostWait && framesOf(view) > 1 && light && !light->lost();
   if (light && light->stale() && !view.lightDrawn && !waits) {
     gl.UseProgram(lightProgram.id());
     lightProgram.bindBlock("Layers", kLayersBlock);
     layersBuffer.bind(kLayersBlock);
     bindClouds(lightProgram, 0);
-    light->draw(lightProgram, framebuffer, view.frames == 0 ? 1 : scene.quality.lightFrames);
+    light->draw(lightProgram, framebuffer, framesOf(view));
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
   }
@@ -723,6 +726,8 @@ void Renderer::render(View& view, const Frame& frame) {
   params.wind.w *= v.exposure;
   params.options.x = 1.0f / v.exposure;
   if (v.last && v.last->options.z != params.options.z) view.reset();
+  if (v.last) v.travel += travelled(params, *v.last);
+  lockGrid(params, v.travel);
   const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != glm::dvec3(place, position.z) ||
                      v.lastTime != frame.time || v.scene != s.sceneNumber;
   v.still = moved ? 0 : v.still + 1;
@@ -730,7 +735,8 @@ void Renderer::render(View& view, const Frame& frame) {
   const bool begun = v.still == v.frames && v.frames < turns;
   const History history = v.frames == 0 || !s.scene.quality.reprojection ? History::none
                           : begun                                        ? History::begun
-                                                                         : History::picture;
+                          : v.still > 0                                  ? History::still
+                                                                         : History::moved;
   setHistory(params, v.last ? &*v.last : nullptr, glm::dvec3(place, position.z) - v.lastPosition,
              driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), history,
              1.0f / static_cast<float>(round + 1));

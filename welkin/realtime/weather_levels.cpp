@@ -54,7 +54,7 @@ int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& posit
                           const gl::Texture& map, int most) {
   const glm::dvec2 inAir = position - driftOffset(drift);
   const int first = index * extent_.levels;
-  const auto at = [&](int level) -> Level& { return levels_[static_cast<std::size_t>(first + level)]; };
+  const auto at = [&](int level) -> Level& { return levels_.begin()[first + level]; };
   std::vector<int> useless, stale;
   for (int level = 0; level < extent_.levels; ++level) {
     const double far = away(level, at(level), inAir);

@@ -24,11 +24,12 @@ in vec2 vUv;
 layout(location = 0) out vec4 oColour;
 
 void main() {
-  vec4 cloud = textureLod(uHistory, vUv, 0.0);
+  vec2 uv = vUv - uLock.xy;
+  vec4 cloud = textureLod(uHistory, uv, 0.0);
   cloud.rgb *= uOptions.x;
   if (uOptions.z > 2.5) cloud = vec4(cloud.aaa, 0.0);
 #if defined(SKY) || defined(DISC) || defined(MOON) || defined(STARS)
-  vec3 ray = rayAt(vUv * 2.0 - 1.0);
+  vec3 ray = rayAt(uv * 2.0 - 1.0);
   vec3 dir = normalize(ray), behind = vec3(0.0);
 #ifdef DISC
   behind += sunDisc(uAir, dir, uOptions.w);

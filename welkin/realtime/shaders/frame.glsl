@@ -16,6 +16,7 @@ layout(std140) uniform Frame {
   vec4 uOptions;      // x: from that factor to the host's pre-exposure, y: jitter, z: what is behind (frame_params.cpp),
                       // w: rad of a target pixel
   vec4 uTarget;       // target width, height, 1 / width, 1 / height
+  vec4 uLock;         // xy: from picture coordinates of the history to those of the target
 };
 
 vec3 rayAt(vec2 ndc) { return cameraRay(ndc, uCamera); }

@@ -70,7 +70,7 @@ void main() {
   vec2 pixel = floor(gl_FragCoord.xy) * uTiming.w + uOffset.xy;
   vec2 uv = (pixel + 0.5 + uOffset.zw) * uSize.zw;
   vec3 ray = rayAt(uv * 2.0 - 1.0);
-  float limit = hostDistance(uHostDepth, (pixel + 0.5) * uSize.zw, ray);
+  float limit = hostDistance(uHostDepth, (pixel + 0.5) * uSize.zw + uLock.xy, ray);
   // The ground's shadows take the same place in all pixels of a round: they have edges of their own, and grain would
   // spoil them.
   vec3 jitter = vec3(0.5);

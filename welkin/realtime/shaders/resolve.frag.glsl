@@ -10,6 +10,10 @@ uniform sampler2D uHistory;
 
 layout(location = 0) out vec4 oColour;
 
+// By which old pixels may leave the range of the new ones round them, in shares of it, for detail between these: by the
+// first, and by the second over what moves against the far in a frame, in pixels. Nothing else can uncover or cover.
+const float kMargin = 0.25, kMarginMoved = 0.25;
+
 vec4 historyAt(vec2 uv) {
 #ifndef AVERAGE
   return textureLod(uHistory, uv, 0.0);
@@ -60,25 +64,42 @@ void main() {
   vec2 pixel = floor(gl_FragCoord.xy);
   ivec2 block = ivec2(pixel / uTiming.w);
   bool marched = all(lessThan(abs(pixel - vec2(block) * uTiming.w - uOffset.xy), vec2(0.5)));
-  vec2 uv = (pixel + 0.5) * uSize.zw;
   // Where the march target stands for this pixel: its texel centres lie at the marched pixels.
-  vec2 marchUv = ((pixel - uOffset.xy) / uTiming.w + 0.5) * uMarchSize.zw;
-  vec4 fresh = marched ? texelFetch(uMarched, block, 0) : textureLod(uMarched, marchUv, 0.0);
+  vec2 place = (pixel - uOffset.xy) / uTiming.w;
+  vec4 fresh = marched ? texelFetch(uMarched, block, 0) : textureLod(uMarched, (place + 0.5) * uMarchSize.zw, 0.0);
 #ifdef FIRST_ROUND
   ivec2 at = ivec2(pixel);
   if (marched) oColour = fresh;
   else if (turnOf(at) < int(uTiming.x)) oColour = texelFetch(uHistory, at, 0);
   else oColour = filled(at);
 #else
-  float depth = texelFetch(uMarchedDepth, block, 0).x * 4.0;
-  vec3 position = normalize(rayAt(uv * 2.0 - 1.0)) * depth - uWind.xyz;
-  vec4 p = vec4(position, 1.0);
+  // The four marched pixels around: what they show of is as far away as the nearest of them, and what they do not show
+  // has gone.
+  ivec2 corner = ivec2(floor(place)), last = ivec2(uMarchSize.xy) - 1;
+  vec4 low = fresh, high = fresh;
+  float depth = 1e9;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 at = clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last);
+    vec4 colour = texelFetch(uMarched, at, 0);
+    low = min(low, colour);
+    high = max(high, colour);
+    depth = min(depth, texelFetch(uMarchedDepth, at, 0).x);
+  }
+  vec2 uv = (pixel + 0.5) * uSize.zw;
+  vec3 dir = normalize(rayAt(uv * 2.0 - 1.0));
+  vec4 p = vec4(dir * (depth * 4.0) - uWind.xyz, 1.0);
   vec3 clip = vec3(dot(uPrevious0, p), dot(uPrevious1, p), dot(uPrevious3, p));
   vec3 shown = vec3(clip.xy / max(clip.z, 1e-6) * 0.5 + 0.5, clip.z);
   if (uCamera.forward.w > 0.5) shown = panoramaUv(clip);
   vec2 before = shown.xy;
   bool known = uTiming.z > 0.5 && shown.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
   vec4 old = historyAt(before);
+  if (uTiming.z < 1.5) {
+    vec3 far = vec3(dot(uPrevious0.xyz, dir), dot(uPrevious1.xyz, dir), dot(uPrevious3.xyz, dir));
+    float moved = 0.5 * length((far.xy / max(far.z, 1e-6) - clip.xy / max(clip.z, 1e-6)) * uSize.xy);
+    vec4 margin = (kMargin + kMarginMoved / max(moved, 1e-3)) * (high - low);
+    old = clamp(old, low - margin, high + margin);
+  }
   vec4 kept = known ? old : fresh;
   oColour = marched ? mix(kept, fresh, known ? uTiming.y : 1.0) : kept;
 #endif
