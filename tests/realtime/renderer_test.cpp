@@ -331,8 +331,8 @@ TEST(Temporal, AMovingCameraStaysNearTheFullMarch) {
   std::printf("moving: 2x2 %.1f dB, 4x4 %.1f dB, 4x4 without history %.1f dB\n", two, four,
               displayedPsnr(lastFrame(4, true), full));
   // A pixel of the history is 0.75 deg wide here; what is carried on softens silhouettes within it.
-  EXPECT_GT(two, 29.0);
-  EXPECT_GT(four, 24.0);
+  EXPECT_GT(two, 33.0);
+  EXPECT_GT(four, 32.5);
   // Control: one frame's sixteenth of the pixels, without history.
   EXPECT_LT(displayedPsnr(lastFrame(4, true), full), four - 1.0);
 }
@@ -374,9 +374,9 @@ TEST(Temporal, TurningKeepsThePictureSharp) {
     const double pitching = psnrInMotion(stage, scene, {.pitch = pixels * pixel});
     const double turning = psnrInMotion(stage, scene, {.heading = pixels * pixel});
     std::printf("%.2f pixels a frame: pitching %.1f dB, turning %.1f dB\n", pixels, pitching, turning);
-    // The grid of the history held to the screen gives 29 to 31 dB.
-    EXPECT_GT(pitching, 32.5) << pixels;
-    EXPECT_GT(turning, 32.5) << pixels;
+    // Measured 32.7 to 34.0; with the history's grid held to the screen 29.7 to 33.5, pitching at most 31.4.
+    EXPECT_GT(pitching, 32.0) << pixels;
+    EXPECT_GT(turning, 32.0) << pixels;
   }
 }
 
