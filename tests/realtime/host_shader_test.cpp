@@ -330,6 +330,13 @@ TEST(Outputs, NameTheViewsTextures) {
   EXPECT_GT(o.sunIrradiance.y, 20.0f);
   EXPECT_LT(o.sunIrradiance.y, 128.0f);
   EXPECT_GT(o.skyIrradiance.z, 5.0f);
+  EXPECT_EQ(o.historyShift, glm::vec2(0.0f));
+  // A turn to the right by a quarter of the history's pixels moves the picture to the left.
+  Scene turned = scene;
+  const float pixel = 2.0f * std::tan(0.5f * scene.camera.fov) / static_cast<float>(kWidth / 2);
+  turned.camera.heading += std::atan(0.25f * pixel);
+  stage.draw(view, stage.frame(turned));
+  EXPECT_NEAR(stage.sky->outputs(view).historyShift.x * static_cast<float>(kWidth / 2), -0.25f, 0.01f);
   stage.draw(other, frame);
   EXPECT_THROW(stage.sky->outputs(view), Error) << "another view's turn";
   stage.sky->prepare(view, frame);

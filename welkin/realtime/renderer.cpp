@@ -707,6 +707,7 @@ Outputs Renderer::outputs(const View& view) const {
   if (v.last) {
     o.cloudsFactor = 1.0f / v.last->wind.w;
     o.cloudDepthOffset = glm::vec2(v.last->offset);
+    o.historyShift = glm::vec2(v.last->lock);
   }
   if (s.light) o.sunDepth = nameOf(s.light->sun());
   o.toSun = hostAxes(glm::dvec3(s.sunDirection), v.up);
