@@ -336,11 +336,12 @@ TEST(Outputs, NameTheViewsTextures) {
   const float pixel = 2.0f * std::tan(0.5f * scene.camera.fov) / static_cast<float>(kWidth / 2);
   turned.camera.heading += std::atan(0.25f * pixel);
   stage.draw(view, stage.frame(turned));
-  EXPECT_NEAR(stage.sky->outputs(view).historyShift.x * static_cast<float>(kWidth / 2), -0.25f, 0.01f);
+  const Outputs later = stage.sky->outputs(view);
+  EXPECT_NEAR(later.historyShift.x * static_cast<float>(kWidth / 2), -0.25f, 0.01f);
   stage.draw(other, frame);
   EXPECT_THROW(stage.sky->outputs(view), Error) << "another view's turn";
   stage.sky->prepare(view, frame);
-  EXPECT_EQ(stage.sky->outputs(view).clouds.name, o.clouds.name);
+  EXPECT_EQ(stage.sky->outputs(view).clouds.name, later.clouds.name);
   stage.sky->setScene(scene);
   EXPECT_THROW(stage.sky->outputs(view), Error) << "a new scene";
 }
