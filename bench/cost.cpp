@@ -83,6 +83,7 @@ Window windowAt(const Options& o, int frame) {
 
 std::vector<int> placesOf(const Options& o) {
   std::vector<int> places;
+  places.reserve(static_cast<std::size_t>(o.plainFrames));
   for (int i = 0; i < o.plainFrames; ++i) places.push_back((2 * i + 1) * o.frames / (2 * o.plainFrames));
   return places;
 }

@@ -10,6 +10,7 @@ const float kFarthestSkip = 4000.0;  // m, over which the earth bends by a metre
 const int kFineSteps = 4;            // after the first hit
 const float kFineStep = 0.5;         // share of the usual step
 const float kEyeStep = 2.0, kEyeGrowth = 0.12;  // m and share of the distance: most of a step near an eye in fog
+const float kShortPath = 100.0, kLongPath = 300.0;  // m; a cell of the light volume, and the longest
 const float kOutside = 0.5;          // share of the depth outside the outlines that is taken for clear, within 4 steps
 
 float spacingAt(float t, MarchParams m) {
@@ -87,8 +88,10 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
       step_ *= m.lightRatio;
     }
     tau += sunDepthIn(level, cloudSpace(dir * t + sun * way, m.planet), uVolume, uSun);
-    // The light that comes toward the eye has set out deeper inside, after a free path.
-    float path = -m.transportPath * log(1.0 - fract(jitter.x + 0.61803399 * points));
+    // The light that comes toward the eye has set out deeper inside, after the path on which it forgets its direction. A
+    // path that is long, in fog, may end beyond the cloud, and would draw its end as an edge: then it is a random one.
+    float free = -log(1.0 - fract(jitter.x + 0.61803399 * points));
+    float path = m.transportPath * mix(1.0, free, smoothstep(kShortPath, kLongPath, m.transportPath));
     vec3 deeper = lightVolumePlace(level, cloudSpace(dir * (t + path), m.planet), uVolume);
     vec2 spread = textureLod(uDiffuse, deeper, 0.0).xy;
 
