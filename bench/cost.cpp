@@ -18,7 +18,6 @@
 namespace welkin {
 namespace {
 
-constexpr int kWarmUp = 8;   // frames after a cut that have little history to lean on
 constexpr int kWindow = 12;  // frames on either side of a place
 constexpr int kFlipWidth = 160, kFlipHeight = 90, kFlipSamples = 64, kFlipPlaces = 2, kStillFrames = 32;
 
@@ -60,10 +59,7 @@ Flown fly(realtime::Offscreen& screen, const Options& o) {
   Flown flown;
   for (int i = 0; i < o.frames; ++i) {
     const bench::Moment moment = o.at(i);
-    const double begin = bench::cpuSeconds();
-    bench::draw(screen, moment);
-    screen.finish();
-    flown.seconds.push_back(bench::cpuSeconds() - begin);
+    flown.seconds.push_back(bench::drawTimed(screen, moment));
     const std::vector<realtime::PassCost> passes = screen.renderer().lastCost().passes;
     if (flown.passes.empty()) {
       flown.passes = passes;
@@ -81,11 +77,13 @@ struct Window {
 };
 Window windowAt(const Options& o, int frame) {
   const int leg = o.legOf(frame), end = o.end(leg);
-  return {std::min(std::max(o.begin(leg) + kWarmUp, frame - kWindow), end - 1), std::min(end, frame + kWindow + 1)};
+  return {std::min(std::max(o.begin(leg) + bench::kWarmUp, frame - kWindow), end - 1),
+          std::min(end, frame + kWindow + 1)};
 }
 
 std::vector<int> placesOf(const Options& o) {
   std::vector<int> places;
+  places.reserve(static_cast<std::size_t>(o.plainFrames));
   for (int i = 0; i < o.plainFrames; ++i) places.push_back((2 * i + 1) * o.frames / (2 * o.plainFrames));
   return places;
 }
@@ -187,10 +185,10 @@ std::string legRows(const Options& o, const std::vector<double>& seconds, std::v
   for (int leg = 0; leg < static_cast<int>(bench::kLegs.size()); ++leg) {
     const auto at = [&](int frame) { return seconds.begin() + std::min(frame, o.end(leg)); };
     const int begin = o.begin(leg);
-    const std::vector<double> all(at(begin), at(o.end(leg))), next(at(begin + 1), at(begin + kWarmUp));
-    warmUp.insert(warmUp.end(), at(begin), at(begin + kWarmUp));
+    const std::vector<double> all(at(begin), at(o.end(leg))), next(at(begin + 1), at(begin + bench::kWarmUp));
+    warmUp.insert(warmUp.end(), at(begin), at(begin + bench::kWarmUp));
     const char* name = bench::kLegs[static_cast<std::size_t>(leg)].name;
-    const double worst = all.size() > kWarmUp ? *std::max_element(all.begin() + kWarmUp, all.end()) : 0.0;
+    const double worst = all.size() > bench::kWarmUp ? *std::max_element(all.begin() + bench::kWarmUp, all.end()) : 0.0;
     fmt::print("{:<12}{:>14.3f}{:>14.3f}{:>16.3f}{:>16.3f}{:>16.3f}\n", name, mean(all), bench::median(all),
                all.front(), mean(next), worst);
     json += fmt::format(
@@ -226,7 +224,7 @@ int main(int argc, char** argv) {
     // Elsewhere first: programs are compiled, and the flight still begins with nothing known of its place.
     bench::Moment elsewhere = o.at(0);
     elsewhere.scene.camera.position.x -= 1e6;
-    for (int i = 0; i < kWarmUp; ++i) {
+    for (int i = 0; i < bench::kWarmUp; ++i) {
       bench::draw(screen, elsewhere);
       elsewhere.sinceCut = 1;
       elsewhere.newScene = false;

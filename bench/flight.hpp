@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 
+#include "bench/harness.hpp"
 #include "welkin/realtime/offscreen.hpp"
 #include "welkin/scene/scene.hpp"
 
@@ -17,6 +18,7 @@ namespace welkin::bench {
 
 inline constexpr int kLegFrames = 75;
 inline constexpr double kFramesPerSecond = 25.0;
+inline constexpr int kWarmUp = 8;  // frames after a cut that have little history to lean on
 
 struct Leg {
   const char* name;
@@ -97,6 +99,14 @@ inline void draw(realtime::Offscreen& screen, const Moment& moment) {
   if (moment.sinceCut == 0) screen.view().reset();
   if (moment.newScene) screen.renderer().setScene(moment.scene);
   screen.draw(moment.scene, moment.scene.time);
+}
+
+// The same; returns the CPU seconds of all threads until it is finished.
+inline double drawTimed(realtime::Offscreen& screen, const Moment& moment) {
+  const double begin = cpuSeconds();
+  draw(screen, moment);
+  screen.finish();
+  return cpuSeconds() - begin;
 }
 
 }  // namespace welkin::bench

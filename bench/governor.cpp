@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bench/flight.hpp"
-#include "bench/harness.hpp"
 #include "welkin/base/metrics.hpp"
 #include "welkin/base/tone.hpp"
 #include "welkin/realtime/governor.hpp"
@@ -17,19 +16,10 @@
 namespace welkin {
 namespace {
 
-constexpr int kWarmUp = 8;
-
 struct Options : bench::FlightOptions {
   double share = 0.7;
   int rungLeg = 2, rungFrames = 24;
 };
-
-double drawTimed(realtime::Offscreen& screen, const bench::Moment& moment) {
-  const double begin = bench::cpuSeconds();
-  bench::draw(screen, moment);
-  screen.finish();
-  return bench::cpuSeconds() - begin;
-}
 
 struct Rung {
   double seconds = 0.0;                    // median
@@ -42,12 +32,12 @@ Rung flyRung(realtime::Offscreen& screen, const Options& o, const Quality& quali
   Rung rung;
   std::vector<double> seconds;
   const int begin = bench::kLegFrames * o.rungLeg;
-  for (int i = 0; i < o.rungFrames + kWarmUp; ++i) {
+  for (int i = 0; i < o.rungFrames + bench::kWarmUp; ++i) {
     bench::Moment moment = bench::FlightOptions{}.at(begin + i);
     moment.scene.quality = quality;
-    seconds.push_back(drawTimed(screen, moment));
+    seconds.push_back(bench::drawTimed(screen, moment));
   }
-  rung.seconds = bench::median({seconds.begin() + kWarmUp, seconds.end()});
+  rung.seconds = bench::median({seconds.begin() + bench::kWarmUp, seconds.end()});
   rung.passes = screen.renderer().lastCost().passes;
   rung.picture = screen.read();
   return rung;
@@ -67,8 +57,8 @@ std::string flyGoverned(realtime::Offscreen& screen, const Options& o, const rea
     bench::Moment moment = o.at(i);
     moment.scene.quality = governor.quality();
     if (moment.sinceCut == 0) governor.cut();
-    const double seconds = drawTimed(screen, moment);
-    if (moment.sinceCut >= kWarmUp) {
+    const double seconds = bench::drawTimed(screen, moment);
+    if (moment.sinceCut >= bench::kWarmUp) {
       ++frames;
       sum += seconds;
       rungs += static_cast<double>(governor.rung());

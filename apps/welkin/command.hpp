@@ -43,11 +43,18 @@ std::vector<Preset> findPresets();
 // $WELKIN_PRESETS, or the folder beside the program in an installation or in the source tree; empty when there is none.
 std::string presetFolder();
 
+struct Size {
+  int width, height;
+};
+// "1280x720". Throws UsageError for anything else, and for edges beyond 16384.
+Size parseSize(const std::string& text);
+
 // `--json`, for a subcommand that programs read.
 std::shared_ptr<bool> addJsonFlag(CLI::App& command);
 
 void addHdri(CLI::App& app);
 void addRender(CLI::App& app);
+void addView(CLI::App& app);
 void addCompare(CLI::App& app);
 void addPresets(CLI::App& app);
 void addFields(CLI::App& app);

@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message([](const CLI::App*, const CLI::Error&) { return std::string(); });
   addRender(app);
+  addView(app);
   addHdri(app);
   addCompare(app);
   addPresets(app);

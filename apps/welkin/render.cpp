@@ -1,8 +1,6 @@
 // welkin render: a picture of a sky.
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "apps/welkin/command.hpp"
 #include "apps/welkin/picture.hpp"
 #include "apps/welkin/traced.hpp"
@@ -10,27 +8,6 @@
 namespace welkin::app {
 
 namespace {
-
-constexpr int kMaxSide = 16384;
-
-struct Size {
-  int width, height;
-};
-
-Size parseSize(const std::string& text) {
-  Size size{};
-  const char *end = text.data() + text.size(), *rest = text.data();
-  const auto readSide = [&](int& side) {
-    const auto [after, error] = std::from_chars(rest, end, side);
-    rest = after;
-    return error == std::errc() && side >= 1 && side <= kMaxSide;
-  };
-  const bool right = readSide(size.width) && rest != end && *rest++ == 'x' && readSide(size.height) && rest == end;
-  if (!right)
-    throw UsageError(
-        fmt::format("--size {}: write WIDTHxHEIGHT, for example 1280x720, at most {} a side", text, kMaxSide));
-  return size;
-}
 
 struct RenderArguments {
   SkyArguments sky;

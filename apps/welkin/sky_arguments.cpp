@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <filesystem>
 
 #include "apps/welkin/command.hpp"
@@ -10,6 +11,8 @@
 namespace welkin::app {
 
 namespace {
+
+constexpr int kMaxSide = 16384;  // of a picture
 
 Scene loadNamed(const std::string& sky) {
   if (sky.empty()) return Scene{};
@@ -62,6 +65,21 @@ void setCamera(Scene& scene, const std::string& text) {
 }
 
 }  // namespace
+
+Size parseSize(const std::string& text) {
+  Size size{};
+  const char *end = text.data() + text.size(), *rest = text.data();
+  const auto readSide = [&](int& side) {
+    const auto [after, error] = std::from_chars(rest, end, side);
+    rest = after;
+    return error == std::errc() && side >= 1 && side <= kMaxSide;
+  };
+  const bool right = readSide(size.width) && rest != end && *rest++ == 'x' && readSide(size.height) && rest == end;
+  if (!right)
+    throw UsageError(
+        fmt::format("--size {}: write WIDTHxHEIGHT, for example 1280x720, at most {} a side", text, kMaxSide));
+  return size;
+}
 
 std::shared_ptr<bool> addJsonFlag(CLI::App& command) {
   auto flag = std::make_shared<bool>(false);

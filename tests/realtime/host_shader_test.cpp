@@ -250,6 +250,41 @@ TEST(SunShare, OfTheCpuIsThatOfTheShader) {
   EXPECT_FLOAT_EQ(static_cast<float>(kTurnedAside), law::kReduced);
 }
 
+// A sheet above dims them too.
+TEST(SunShare, SheetsAboveTakeTheirPart) {
+  Stage stage(kWidth, kHeight);
+  Scene scene = plainScene(LayerShape::profile);
+  Sheet sheet;
+  sheet.kind = SheetKind::cirrostratus;
+  sheet.opticalDepth = 2.0f;
+  sheet.coverage = 1.0f;
+  scene.sheets = {sheet};
+  HostPass pass(stage.gl, "answer = vec4(welkinSunShare(vec3((vUv - 0.5) * vec2(8000.0, 4500.0), -uNumbers.x)));");
+  const auto share = [&](const Scene& sky, glm::vec3& toSun) {
+    stage.sky->setScene(sky);
+    Frame frame = stage.frame(sky);
+    View view;
+    stage.sky->prepare(view, frame);
+    toSun = stage.sky->outputs(view).toSun;
+    return pass.draw(*stage.sky, view, frame, 150.0f);
+  };
+  glm::vec3 toSun;
+  const Image under = share(scene, toSun);
+  const law::SheetParams params = sheetParams(sheet, glm::dvec2(0.0), 0.0, scene.seed);
+  scene.sheets.clear();
+  const Image clear = share(scene, toSun);
+  double least = 1.0;
+  for (int y = 0; y < kHeight; y += 2)
+    for (int x = 0; x < kWidth; x += 2) {
+      const glm::vec2 p(((x + 0.5f) / kWidth - 0.5f) * 8000.0f, (0.5f - (y + 0.5f) / kHeight) * 4500.0f);
+      const float depth =
+          law::sheetDepthToward(p, sheet.height, toSun, toSun.z, static_cast<float>(1.0 / kPlanetRadius), params);
+      EXPECT_NEAR(under.at(x, y)[0], clear.at(x, y)[0] * std::exp(-depth), 0.02) << x << " " << y;
+      least = std::min(least, std::exp(-static_cast<double>(depth)));
+    }
+  EXPECT_LT(least, 0.75);
+}
+
 TEST(HostAxes, TheIncludeTakesBothUps) {
   Stage stage(kWidth, kHeight);
   Scene scene = cumulus();
@@ -295,10 +330,18 @@ TEST(Outputs, NameTheViewsTextures) {
   EXPECT_GT(o.sunIrradiance.y, 20.0f);
   EXPECT_LT(o.sunIrradiance.y, 128.0f);
   EXPECT_GT(o.skyIrradiance.z, 5.0f);
+  EXPECT_EQ(o.historyShift, glm::vec2(0.0f));
+  // A turn to the right by a quarter of the history's pixels moves the picture to the left.
+  Scene turned = scene;
+  const float pixel = 2.0f * std::tan(0.5f * scene.camera.fov) / static_cast<float>(kWidth / 2);
+  turned.camera.heading += std::atan(0.25f * pixel);
+  stage.draw(view, stage.frame(turned));
+  const Outputs later = stage.sky->outputs(view);
+  EXPECT_NEAR(later.historyShift.x * static_cast<float>(kWidth / 2), -0.25f, 0.01f);
   stage.draw(other, frame);
   EXPECT_THROW(stage.sky->outputs(view), Error) << "another view's turn";
   stage.sky->prepare(view, frame);
-  EXPECT_EQ(stage.sky->outputs(view).clouds.name, o.clouds.name);
+  EXPECT_EQ(stage.sky->outputs(view).clouds.name, later.clouds.name);
   stage.sky->setScene(scene);
   EXPECT_THROW(stage.sky->outputs(view), Error) << "a new scene";
 }

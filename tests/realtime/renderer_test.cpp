@@ -331,8 +331,8 @@ TEST(Temporal, AMovingCameraStaysNearTheFullMarch) {
   std::printf("moving: 2x2 %.1f dB, 4x4 %.1f dB, 4x4 without history %.1f dB\n", two, four,
               displayedPsnr(lastFrame(4, true), full));
   // A pixel of the history is 0.75 deg wide here; what is carried on softens silhouettes within it.
-  EXPECT_GT(two, 29.0);
-  EXPECT_GT(four, 24.0);
+  EXPECT_GT(two, 33.0);
+  EXPECT_GT(four, 32.5);
   // Control: one frame's sixteenth of the pixels, without history.
   EXPECT_LT(displayedPsnr(lastFrame(4, true), full), four - 1.0);
 }
@@ -374,9 +374,9 @@ TEST(Temporal, TurningKeepsThePictureSharp) {
     const double pitching = psnrInMotion(stage, scene, {.pitch = pixels * pixel});
     const double turning = psnrInMotion(stage, scene, {.heading = pixels * pixel});
     std::printf("%.2f pixels a frame: pitching %.1f dB, turning %.1f dB\n", pixels, pitching, turning);
-    // The grid of the history held to the screen gives 29 to 31 dB.
-    EXPECT_GT(pitching, 32.5) << pixels;
-    EXPECT_GT(turning, 32.5) << pixels;
+    // Measured 32.7 to 34.0; with the history's grid held to the screen 29.7 to 33.5, pitching at most 31.4.
+    EXPECT_GT(pitching, 32.0) << pixels;
+    EXPECT_GT(turning, 32.0) << pixels;
   }
 }
 
@@ -390,6 +390,29 @@ TEST(Temporal, WhatIsUncoveredIsSeenAtOnce) {
   const double away = psnrInMotion(stage, scene, {.way = {4.3, 4.3, 5.2}, .frames = 24});
   std::printf("leaving a cloud: %.1f dB\n", away);
   EXPECT_GT(away, 30.0);
+}
+
+// A thick base lit by a low sun has no grain: one march of its pixels is as smooth as the mean of many.
+TEST(Temporal, OneMarchOfADenseCloudIsSmooth) {
+  Stage stage(160, 90);
+  Scene scene;
+  scene.seed = 2;
+  scene.sun.elevation = glm::radians(2.2f);
+  scene.sun.azimuth = glm::radians(285.0f);
+  scene.atmosphere.mie = 2.5f;
+  scene.camera.position = {0.0, 0.0, 300.0};
+  scene.camera.heading = glm::radians(271.0f);
+  scene.camera.pitch = glm::radians(28.0f);
+  scene.camera.fov = glm::radians(16.0f);
+  scene.layers[0].cloud.base = 1300.0f;
+  scene.layers[0].cloud.thickness = 1700.0f;
+  scene.layers[0].weather.coverage = 0.4f;
+  scene.layers[0].weather.cellSize = 3000.0f;
+  scene.quality.interleave = scene.quality.historyScale = 1;
+  const double one = roughness(stage.draw(scene, 1)), many = roughness(stage.draw(scene, 32));
+  std::printf("roughness of one march %.4f, of the mean of 32 %.4f\n", one, many);
+  // Measured 1.7 times; 3.7 times where every point looks a random path ahead.
+  EXPECT_LT(one, 2.5 * many);
 }
 
 TEST(Temporal, WithoutReprojectionEveryFrameIsFresh) {

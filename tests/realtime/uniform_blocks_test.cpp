@@ -180,7 +180,8 @@ TEST_P(UniformBlocks, FrameLiesAsInCpp) {
                          {"uPrevious3", offsetof(FrameParams, previous3)},
                          {"uWind", offsetof(FrameParams, wind)},
                          {"uOptions", offsetof(FrameParams, options)},
-                         {"uTarget", offsetof(FrameParams, target)}};
+                         {"uTarget", offsetof(FrameParams, target)},
+                         {"uLock", offsetof(FrameParams, lock)}};
   EXPECT_EQ(offsets("", "Frame", "uCamera.forward.x"), expected);
 }
 

@@ -13,6 +13,9 @@ const int kSheetCirrostratus = 1;
 const int kSheetCirrocumulus = 2;
 const int kSheetAltocumulus = 3;
 
+const float kIceAsymmetry = 0.78f;    // mean cosine of scattering: .75 to .82 for ice
+const float kWaterAsymmetry = 0.86f;  // droplets
+
 // Ridges of gradient noise, each octave finer by 2 and weaker by `gain`, 0..1.
 FN Real ridgedFbm(IN(Vec2) p, IN(Lattice) l, IN(float) gain, IN(int) octaves, IN(uint) seed) {
   Real sum = 0.0f;
@@ -71,4 +74,19 @@ FN Real sheetOpticalDepth(IN(Vec2) p, IN(SheetParams) s) {
   Real edge = mix(Real(0.8f), Real(0.45f), mask * (0.6f + 0.4f * latticeNoise(p, s.bend, 5, seed + 33u)));
   Real grains = saturate((t - edge) / (1.0f - edge));
   return s.opticalDepth * mask * (0.08f + 1.04f * grains * (1.3f - 0.3f * grains));
+}
+
+// Share of its extinction that makes light forget where it came from.
+FN float sheetTurned(IN(SheetParams) s) {
+  return 1.0f - (s.kind == kSheetAltocumulus ? kWaterAsymmetry : kIceAsymmetry);
+}
+
+// Optical depth on the way from p toward a light, `rise` m below the sheet, as far as it turns light aside. The light
+// stands at a height of sine `slant` over p; over the sheet it is higher, since the ground curves away.
+FN Real sheetDepthToward(IN(Vec2) p, IN(Real) rise, IN(Vec3) light, IN(Real) slant, IN(float) inverseRadius,
+                         IN(SheetParams) s) {
+  Real low = max(slant, 0.01f);
+  Real there = sqrt(max(low * low + 2.0f * inverseRadius * rise, 1e-4f));
+  Real way = 2.0f * rise / (low + there);
+  return sheetOpticalDepth(p + Vec2(light.x, light.y) * way, s) * sheetTurned(s) / there;
 }

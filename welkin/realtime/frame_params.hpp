@@ -36,10 +36,10 @@ glm::dvec2 travelled(const FrameParams& params, const FrameParams& last);
 // which blurs nothing, and each is marched again after interleave^2 frames wherever it is by then.
 void lockGrid(FrameParams& params, const glm::dvec2& travel);
 
-// Whether two frames look the same way (position and time apart).
 // Whether something round a direction (to `radius` rad) may be in the picture.
 bool mayShow(const FrameParams& params, const glm::vec3& direction, float radius);
 
+// Whether two frames look the same way (position and time apart).
 bool sameView(const FrameParams& a, const FrameParams& b);
 
 // The frame of the scene's camera for a picture of this size.

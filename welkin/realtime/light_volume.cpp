@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 
 #include "welkin/density/params.hpp"
 #include "welkin/realtime/shader_sources.hpp"
@@ -53,6 +52,7 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     return gl::Texture(gl, gl::Texture::Kind::plane, format, extent_.texels, extent_.texels, 0, gl::Filter::linear,
                        gl::Addressing::clamp, nullptr);
   };
+  sheets_ = plane(gl::kRgba16F);
   sun_ = volume(gl::kR16F, extent_.levels);
   diffuse_ = volume(gl::kRg16F, extent_.levels);
   density_ = volume(gl::kRg16F, 1);
@@ -67,6 +67,7 @@ std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() 
   return {{"light volume: sun", &sun_},
           {"light volume: diffuse", &diffuse_},
           {"light volume: density", &density_},
+          {"light volume: sheets", &sheets_},
           {"light volume: steps", &steps_},
           {"light volume: share", &share_},
           {"light volume: light", &light_},
@@ -160,7 +161,7 @@ LightVolume::Job LightVolume::nextJob() {
   return job;
 }
 
-void LightVolume::draw(const gl::Program& density, gl::Framebuffer& framebuffer, int frames) {
+void LightVolume::draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, int frames) {
   const auto mustNow = [&] { return lost() || (frames <= 1 && stale()); };
   if (mustNow()) {
     job_.reset();
@@ -171,7 +172,7 @@ void LightVolume::draw(const gl::Program& density, gl::Framebuffer& framebuffer,
     const bool now = mustNow();
     if (!now && work <= 0.0) break;
     if (!job_) job_ = nextJob();
-    const double left = go(density, framebuffer, now ? 1e30 : work);
+    const double left = go(clouds, framebuffer, now ? 1e30 : work);
     work = now ? 0.0 : left;
   }
 }
@@ -192,7 +193,7 @@ float LightVolume::firstStep() const {
                   static_cast<float>(extent_.edge(job_->level)) / static_cast<float>(extent_.texels) / across);
 }
 
-double LightVolume::go(const gl::Program& density, gl::Framebuffer& framebuffer, double work) {
+double LightVolume::go(const CloudPasses& clouds, gl::Framebuffer& framebuffer, double work) {
   law::LightVolumeParams params = this->params();
   levelOf(params.levels, job_->level) = clipLevel(extent_, job_->level, inAir_ - job_->centre);
   block_.upload(&params, sizeof params);
@@ -210,11 +211,12 @@ double LightVolume::go(const gl::Program& density, gl::Framebuffer& framebuffer,
     const bool ends = count == left;
     switch (job.phase) {
       case Phase::density:
-        fillDensity(density, framebuffer, count);
+        fillDensity(clouds.density, framebuffer, count);
+        if (ends && clouds.sheets.id()) fillSheets(clouds.sheets, framebuffer);
         if (ends) job.phase = Phase::sun;
         break;
       case Phase::sun:
-        fillSun(framebuffer, count, doublings);
+        fillSun(clouds.sheets.id() ? clouds.sheetHeights : glm::vec4(-1e9f), framebuffer, count, doublings);
         if (ends && job.round++ == doublings) job.phase = Phase::start;
         break;
       case Phase::start:
@@ -275,17 +277,33 @@ void LightVolume::fillDensity(const gl::Program& program, gl::Framebuffer& frame
   }
 }
 
-void LightVolume::fillSun(gl::Framebuffer& framebuffer, int count, int doublings) {
+// The sun's direction as these passes take it.
+void LightVolume::sunUniform(const gl::Program& program) const {
+  const glm::vec3& sunward = job_->sunward;
+  gl_.Uniform4f(program.uniform("uSunward"), sunward.x, sunward.y, sunward.z, kLeastSlant);
+}
+
+void LightVolume::fillSheets(const gl::Program& program, gl::Framebuffer& framebuffer) {
+  use(program);
+  sunUniform(program);
+  gl_.Uniform1f(program.uniform("uTop"), shell_.top);
+  const gl::Texture* const targets[] = {&sheets_};
+  framebuffer.target(targets);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void LightVolume::fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& framebuffer, int count, int doublings) {
   use(sunPass_);
   const int round = job_->round;
-  const glm::vec3& sunward = job_->sunward;
-  gl_.Uniform4f(sunPass_.uniform("uSunward"), sunward.x, sunward.y, sunward.z, kLeastSlant);
+  sunUniform(sunPass_);
   gl_.Uniform1i(sunPass_.uniform("uCoarsest"), job_->level == extent_.levels - 1 ? 1 : 0);
   gl_.Uniform2f(sunPass_.uniform("uWay"), round == 0 ? 0.0f : std::ldexp(firstStep(), round - 1), firstStep());
   gl_.Uniform1i(sunPass_.uniform("uLast"), round == doublings ? 1 : 0);
   const bool ends = (doublings - round) % 2 == 0;
   bind(sunPass_, "uSteps", ends ? share_ : steps_, kUnits + 1);
   bind(sunPass_, "uSun", sun_, kUnits + 2);
+  bind(sunPass_, "uSheets", sheets_, kUnits + 3);
+  gl_.Uniform4f(sunPass_.uniform("uSheetHeights"), sheetHeights.x, sheetHeights.y, sheetHeights.z, sheetHeights.w);
   for (int s = job_->slice; s < job_->slice + count; ++s) {
     slice(sunPass_, s);
     const gl::Texture* const targets[] = {ends ? &steps_ : &share_};

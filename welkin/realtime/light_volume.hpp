@@ -5,6 +5,7 @@
 #include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +16,14 @@
 #include "welkin/scene/quality.hpp"
 
 namespace welkin::realtime {
+
+// What draws clouds into the volume: shaders/light_density.frag.glsl and, where there are sheets,
+// light_sheets.frag.glsl, with the clouds' blocks and textures bound, on units below 10; and the sheets' heights, m.
+struct CloudPasses {
+  const gl::Program& density;
+  const gl::Program& sheets;
+  glm::vec4 sheetHeights;
+};
 
 class LightVolume {
  public:
@@ -32,9 +41,8 @@ class LightVolume {
   bool lost() const;
   // Makes what place() has found out of date, a share of a level with each call; `frames` calls for a level, 1: all of
   // it at once. A level keeps its old light until the new one is complete; one that has none of use is made at once.
-  // `density`: shaders/light_density.frag.glsl with the clouds' blocks and textures bound, on units below 10. Leaves
-  // framebuffer, program and viewport changed.
-  void draw(const gl::Program& density, gl::Framebuffer& framebuffer, int frames);
+  // Leaves framebuffer, program and viewport changed.
+  void draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, int frames);
   // What is there, for positions relative to that of the last place().
   law::LightVolumeParams params() const;
 
@@ -71,14 +79,16 @@ class LightVolume {
   float firstStep() const;
   Job nextJob();
   // Goes on with the job, over at most so much work (costs of the passes in light_volume.cpp); returns what is left.
-  double go(const gl::Program& density, gl::Framebuffer& framebuffer, double work);
+  double go(const CloudPasses& clouds, gl::Framebuffer& framebuffer, double work);
   void fillDensity(const gl::Program& program, gl::Framebuffer& framebuffer, int count);
-  void fillSun(gl::Framebuffer& framebuffer, int count, int doublings);
+  void fillSheets(const gl::Program& program, gl::Framebuffer& framebuffer);
+  void fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& framebuffer, int count, int doublings);
   void start(gl::Framebuffer& framebuffer, int count);
   void diffuseDown(gl::Framebuffer& framebuffer, int count);
   void diffuseUp(gl::Framebuffer& framebuffer, int count, int steps);
   void publish(gl::Framebuffer& framebuffer);
   void use(const gl::Program& program);
+  void sunUniform(const gl::Program& program) const;
   void slice(const gl::Program& program, int number) const;
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const;
   void copy(int target, const gl::Texture& to, int slice) const;
@@ -89,8 +99,9 @@ class LightVolume {
   WeatherExtent extent_;       // squares and their texels
   int slices_;                 // of a level, from the bottom of the clouds to their top
   gl::Texture sun_, diffuse_;  // all levels
-  // Of the level that is being made: light_density, light_sun (whose last doubling ends in steps_), light_diffusion.
-  gl::Texture density_, steps_, share_, light_;
+  // Of the level that is being made: light_density, light_sheets, light_sun (whose last doubling ends in steps_),
+  // light_diffusion.
+  gl::Texture density_, sheets_, steps_, share_, light_;
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
   gl::Program sunPass_, startPass_, diffusionPass_, columnPass_;
   gl::UniformBuffer block_;

@@ -68,6 +68,34 @@ Veil veilOf(const Scene& scene) {
   return veil;
 }
 
+// Mean optical depth of a sheet as far as it turns light aside, from places over many of its patches.
+float turnedDepth(const Sheet& sheet, int seed) {
+  constexpr int kPlaces = 12;
+  constexpr float kApart = 7300.0f;  // m, half a patch
+  const law::SheetParams p = sheetParams(sheet, glm::dvec2(0.0), 0.0, seed);
+  float sum = 0.0f;
+  for (int i = 0; i < kPlaces * kPlaces; ++i)
+    sum += law::sheetOpticalDepth(kApart * glm::vec2(i % kPlaces, i / kPlaces), p);
+  return sum / (kPlaces * kPlaces) * law::sheetTurned(p);
+}
+
+// What sky and sun send to the clouds below the sheets, in the mean: a sheet turns back a part of the light of the air
+// above it (two-stream, as in veilOf), and half of the sunlight that it turns aside comes down from it as from a sky.
+SkyLight belowSheets(const Scene& scene, SkyLight light, float sunHeight) {
+  constexpr float kAirHeight = 8000.0f, kPi = 3.14159265f;  // m, over which the air's density falls to 1 / e
+  for (const Sheet& sheet : scene.sheets) {
+    const float depth = turnedDepth(sheet, scene.seed);
+    const float slant = std::sqrt(sunHeight * sunHeight + 2.0f * sheet.height / static_cast<float>(kPlanetRadius));
+    const float sun = std::exp(-depth / slant), sky = 1.0f / (1.0f + 0.75f * depth);
+    const float dimmed = 1.0f - std::exp(-sheet.height / kAirHeight) * (1.0f - sky);
+    const glm::vec3 turned = light.sunIrradiance * (sunHeight * 0.5f * (1.0f - sun));
+    light.skyIrradiance = light.skyIrradiance * dimmed + turned;
+    light.meanRadiance = light.meanRadiance * dimmed + turned / kPi;
+    light.sunIrradiance *= sun;
+  }
+  return light;
+}
+
 // Sunlight on its way through a cloud that has been turned aside but once or twice counts as light without direction,
 // by this share of an irradiance of 1 (isotropic: 1/4), since what the light volume's cells know of it is blurred:
 // fitted to the path tracer on bench/error.cpp's cumulus and stratocumulus together with light_volume.cpp's kBeam.
@@ -80,15 +108,16 @@ constexpr float kDiffusedShare = 0.22f;
 }  // namespace
 
 law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
-                             const SkyLight& light, float pixelAngle, bool drawGround, std::span<const Shell> grids,
+                             const SkyLight& clear, float pixelAngle, bool drawGround, std::span<const Shell> grids,
                              float gridExtinction) {
   const LightingSettings& l = scene.lighting;
   const Quality& q = scene.quality;
   law::MarchParams m{};
   m.planet = planet;
   m.sun = glm::vec4(sunDirection, l.powder);
-  m.ambientSky = glm::vec4(light.meanRadiance, l.ambient);
   const float sunHeight = std::max(sunDirection.z, 0.0f);
+  const SkyLight light = belowSheets(scene, clear, sunHeight);
+  m.ambientSky = glm::vec4(light.meanRadiance, l.ambient);
   const Veil veil = veilOf(scene);
   const glm::vec3 direct = sunHeight * light.sunIrradiance;
   const glm::vec3 diffuse =

@@ -9,10 +9,10 @@
 
 namespace welkin::realtime {
 
-// `gridExtinction`: greatest of the grids, 1/m. `pixelAngle`: rad of one pixel. `drawGround`: whether rays end on
-// Welkin's own ground.
+// `clear`: light of the sky without clouds. `gridExtinction`: greatest of the grids, 1/m. `pixelAngle`: rad of one
+// pixel. `drawGround`: whether rays end on Welkin's own ground.
 law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet, const glm::vec3& sunDirection,
-                             const SkyLight& light, float pixelAngle, bool drawGround,
+                             const SkyLight& clear, float pixelAngle, bool drawGround,
                              std::span<const Shell> grids = {}, float gridExtinction = 0.0f);
 
 }  // namespace welkin::realtime

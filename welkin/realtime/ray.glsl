@@ -51,6 +51,20 @@ FN void airBefore(IN(Vec3) dir, IN(Real) distance, IN(ShadedAir) shaded, IN(Atmo
   inscatter = mix(inscatter, shaded.radiance * (Vec3(1.0f) - through), shaded.share);
 }
 
+// What the sheets above a point of cloud space leave of sunlight that comes from a height of sine `slant`, where no light
+// volume knows it.
+FN Real sheetsThrough(IN(Vec3) q, IN(Real) slant, IN(MarchParams) m, IN(Sky) sky) {
+  Vec3 sun = Vec3(m.sun.x, m.sun.y, m.sun.z);
+  Real depth = 0.0f;
+  for (int i = 0; i < skySheetCount(sky); ++i) {
+    SheetParams s = skySheet(i, sky);
+    Real rise = s.height - q.z;
+    Real own = sheetDepthToward(Vec2(q.x, q.y), max(rise, 0.0f), sun, slant, 1.0f / m.planet.radius, s);
+    depth += select(rise > 0.0f, own, Real(0.0f));
+  }
+  return exp(-depth);
+}
+
 FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams) m, IN(AtmosphereParams) air,
                   IN(Sampler2) transmittance, IN(Sampler3) aerialInscatter, IN(Sampler3) aerialTransmittance,
                   IN(Sky) sky, OUT(Vec4) colour, OUT(Real) depth, OUT(Real) samples) {
@@ -66,6 +80,12 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Real sunCosine = dot(sun, normalize(up * m.planet.up.w + dir * entry));
   Vec3 sunLow = irradiance * lookupTransmittanceToSun(transmittance, air, Real(m.bottom), sunCosine);
   Vec3 sunHigh = irradiance * lookupTransmittanceToSun(transmittance, air, Real(m.top), sunCosine);
+
+  if (kLightVolume == 0) {
+    Real left = sheetsThrough(cloudSpace(dir * entry, m.planet), sunCosine, m, sky);
+    sunLow = sunLow * left;
+    sunHigh = sunHigh * left;
+  }
 
   MarchResult r = march(dir, limit, sunLow, sunHigh, jitter, m, sky);
   Vec3 inscatter = Vec3(0.0f);
@@ -108,6 +128,9 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
     Real slant = dot(sun, normal);
     Real opaque = select(seen, 1.0f - exp(-vertical / max(abs(dot(dir, normal)), 0.12f)), Real(0.0f));
     Vec3 sunlight = irradiance * lookupTransmittanceToSun(transmittance, air, Real(s.height), slant);
+    // Below tops of clouds it stands in their shade.
+    if (kLightVolume != 0 && s.height < m.top)
+      sunlight = sunlight * exp(-kReduced * skySunDepth(cloudSpace(dir * t, m.planet), sky));
     lookupAerial(aerialInscatter, aerialTransmittance, air, dir, t, inscatter, through);
     Vec3 light = (sheetSource(cosTheta, vertical, slant, sunlight, m) * through + inscatter) * opaque;
     Mask front = t < r.depth;
@@ -120,6 +143,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Real cosSun = max(dot(sun, normal), 0.0f);
   Vec3 lit = irradiance * lookupTransmittanceToSun(transmittance, air, Real(0.0f), dot(sun, normal));
   Vec3 diffuse = xyz(m.skyIrradiance);
+  if (kLightVolume == 0) lit = lit * sheetsThrough(Vec3(dir.x * tGround, dir.y * tGround, 0.0f), dot(sun, normal), m, sky);
   if (kLightVolume != 0) {
     Vec2 below = skyBelow(Vec2(dir.x * tGround, dir.y * tGround), sky);
     diffuse = sunLow * below.x + xyz(m.ambientSky) * (3.14159265f * below.y);

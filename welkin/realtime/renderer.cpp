@@ -127,7 +127,7 @@ struct Renderer::State {
   std::vector<PlacedGrid> heroGrids;    // hero clouds, in still air
   std::vector<PlacedGrid> placedGrids;  // that it was made of, without hero clouds
   float gridExtinction = 0.0f;          // their greatest, 1/m
-  gl::Program march, lightProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
+  gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
@@ -187,7 +187,9 @@ struct Renderer::State {
            sameFields(scene.noise.profile, next.noise.profile) &&
            sameFields(scene.noise.baseShape, next.noise.baseShape) &&
            sameFields(scene.noise.detail, next.noise.detail) && sameFields(scene.noise.curl, next.noise.curl) &&
-           std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameLayer);
+           std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameLayer) &&
+           std::equal(scene.sheets.begin(), scene.sheets.end(), next.sheets.begin(), next.sheets.end(),
+                      [](const Sheet& a, const Sheet& b) { return sameFields(a, b); });
   }
 
   // Whether another scene has clouds in the same places, of other sizes perhaps, so that light changes over by and by.
@@ -303,9 +305,14 @@ void Renderer::State::makeMarch() {
                               (lit() ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
   if (text == marchDefines) return;
-  if (lit())
+  if (lit()) {
     lightProgram = gl::Program(gl, "light density", clouds, fileText("welkin/realtime/shaders/light_density.frag.glsl"),
                                shaderSource);
+    sheetProgram = scene.sheets.empty()
+                       ? gl::Program()
+                       : gl::Program(gl, "light sheets", clouds,
+                                     fileText("welkin/realtime/shaders/light_sheets.frag.glsl"), shaderSource);
+  }
   march = gl::Program(gl, "march", text, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
   marchDefines = text;
 }
@@ -502,7 +509,10 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     lightProgram.bindBlock("Layers", kLayersBlock);
     layersBuffer.bind(kLayersBlock);
     bindClouds(lightProgram, 0);
-    light->draw(lightProgram, framebuffer, framesOf(view));
+    if (sheetProgram.id()) sheetProgram.bindBlock("Layers", kLayersBlock);
+    glm::vec4 heights(-1e9f);
+    for (std::size_t i = 0; i < scene.sheets.size(); ++i) heights[static_cast<int>(i)] = scene.sheets[i].height;
+    light->draw({lightProgram, sheetProgram, heights}, framebuffer, framesOf(view));
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
   }
@@ -723,6 +733,7 @@ Outputs Renderer::outputs(const View& view) const {
   if (v.last) {
     o.cloudsFactor = 1.0f / v.last->wind.w;
     o.cloudDepthOffset = glm::vec2(v.last->offset);
+    o.historyShift = glm::vec2(v.last->lock);
   }
   if (s.light) o.sunDepth = nameOf(s.light->sun());
   o.toSun = hostAxes(glm::dvec3(s.sunDirection), v.up);

@@ -114,6 +114,9 @@ struct Outputs {
   TextureName cloudDepth;
   float cloudDepthFactor = 1.0f;
   glm::vec2 cloudDepthOffset{0.0f};
+  // The history goes with turns of the camera, by part of one of its pixels: what the target shows at uv stands at
+  // uv - historyShift of both.
+  glm::vec2 historyShift{0.0f};
   // R16F, 3D: optical depth of the clouds toward the sun, in nested squares round the eye: the clouds' shadow map. None
   // without quality.lightVolume and with lighting.model nubis.
   TextureName sunDepth;

@@ -15,7 +15,7 @@ inline constexpr double kTurnedAside = 0.14;
 // along the ray `toSun` (unit vector) in steps of `step` m, by the midpoint rule: what welkinSunShare() answers on the
 // GPU from its lattice. There edges of shadows are as wide as the lattice's cells (100 m within 6 km of the eye with
 // quality high); here they are exact. On the ground under fair-weather cumulus the two differ by .04 in the mean. High
-// sheets do not count. About .06 ms for one layer.
+// sheets do not count here. About .06 ms for one layer.
 inline double sunShare(const DensityField& field, const glm::dvec3& point, const glm::dvec3& toSun,
                        double step = 20.0) {
   return std::exp(-kTurnedAside * field.opticalDepthToward(point, toSun, step));

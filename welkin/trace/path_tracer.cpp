@@ -20,11 +20,10 @@ namespace welkin::trace {
 namespace {
 
 constexpr int kTile = 16;
-constexpr int kFirstSamples = 16;       // before the first estimate of a tile's noise
-constexpr double kMiddleGrey = 0.18;    // luminance, white = 1
-constexpr std::size_t kGroup = 32;      // tiles between two looks at the clock
-constexpr float kAureole = 2.0f;        // 1/sr, where the forward peak ends: 25 times isotropic scattering
-constexpr double kIceAsymmetry = 0.78;  // .75 to .82 for ice
+constexpr int kFirstSamples = 16;     // before the first estimate of a tile's noise
+constexpr double kMiddleGrey = 0.18;  // luminance, white = 1
+constexpr std::size_t kGroup = 32;    // tiles between two looks at the clock
+constexpr float kAureole = 2.0f;      // 1/sr, where the forward peak ends: 25 times isotropic scattering
 
 // Largest extinction of the air in each step of altitude; beyond the last there is none.
 std::vector<float> airBounds(const law::AtmosphereParams& air) {
@@ -101,7 +100,7 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
   for (const Sheet& sheet : scene.sheets) {
     const bool water = sheet.kind == SheetKind::altocumulus;
     k.components.push_back({1.0f, b.phaseOf(water ? PhaseTable::mie(phaseOf(CloudLayer{}))
-                                                  : PhaseTable::henyeyGreenstein(kIceAsymmetry))});
+                                                  : PhaseTable::henyeyGreenstein(law::kIceAsymmetry))});
     // sheetOpticalDepth is at most 1.4 times the sheet's own.
     k.sheetBounds.push_back(1.4001f * sheet.opticalDepth / kSheetThickness);
   }

@@ -1,6 +1,6 @@
 // Light volume, second pass: optical depth toward the sun, by doubling. At first every cell knows that of a short step;
 // then, again and again, of twice as far, from itself and from where its way has ended. The last time it adds what the
-// coarser levels know of the rest.
+// coarser levels know of the rest, and the sheets above.
 #include "welkin/realtime/shaders/light_level.glsl"
 
 uniform sampler3D uSteps;  // optical depths of the steps so far, this level's cells
@@ -8,6 +8,8 @@ uniform sampler3D uSun;    // coarser levels, finished before this one
 uniform vec4 uSunward;     // direction toward the sun; w: least sine of its height
 uniform vec2 uWay;         // length of the way that uSteps knows, 0 at first; of the first step; m
 uniform int uLast;         // 1 the last time
+uniform sampler2D uSheets;    // light_sheets.frag.glsl
+uniform vec4 uSheetHeights;   // m, far below where there is no sheet
 
 in vec2 vUv;
 layout(location = 0) out vec4 oTau;
@@ -42,6 +44,13 @@ void main() {
     vec3 leave = q + way * min(abs(side.x), abs(side.y));
     if (placeOf(leave).z < 1.0)
       tau += textureLod(uSun, lightVolumePlace(lightVolumeLevel(leave, 0.0, uVolume), leave, uVolume), 0.0).x;
+  }
+  if (uLast == 1) {
+    // Where the way goes through the level's top; where it leaves by a side, the coarser level knows the sheets.
+    float up = (uVolume.bottom + 1.0 / uVolume.inverseHeight - q.z) / way.z;
+    vec2 top = placeOf(q + way * up).xy;
+    if (uCoarsest == 1 || all(lessThan(abs(top - 0.5), vec2(0.5))))
+      tau += dot(mix(vec4(0.0), textureLod(uSheets, top, 0.0), greaterThan(uSheetHeights, vec4(q.z))), vec4(1.0));
   }
   oTau = vec4(min(tau, 60000.0), 0.0, 0.0, 1.0);
 }

@@ -9,7 +9,13 @@ const int kMostSkips = 400;
 const float kFarthestSkip = 4000.0;  // m, over which the earth bends by a metre
 const int kFineSteps = 4;            // after the first hit
 const float kFineStep = 0.5;         // share of the usual step
+const float kEyeStep = 2.0, kEyeGrowth = 0.12;  // m and share of the distance: most of a step near an eye in fog
+const float kShortPath = 100.0, kLongPath = 300.0;  // m; a cell of the light volume, and the longest
 const float kOutside = 0.5;          // share of the depth outside the outlines that is taken for clear, within 4 steps
+
+float spacingAt(float t, MarchParams m) {
+  return min(clamp(t * m.stepScale, m.minStep, m.maxStep), kEyeStep + kEyeGrowth * t);
+}
 
 MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter, MarchParams m, Sky sky) {
   vec3 sun = m.sun.xyz, up = m.planet.up.xyz;
@@ -24,7 +30,7 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
   float inverseShell = 1.0 / (m.top - m.bottom);
 
   float t = span.start;
-  float lastStep = clamp(t * m.stepScale, m.minStep, m.maxStep);
+  float lastStep = spacingAt(t, m);
   t += jitter.x * lastStep;
   float fineLeft = 0.0, points = 0.0, samples = 0.0;
   float transmittance = 1.0;
@@ -46,7 +52,7 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
         t += min(clear, kFarthestSkip) + 0.5;
         skipped = true;
       }
-      spacing = clamp(t * m.stepScale, m.minStep, m.maxStep);
+      spacing = spacingAt(t, m);
       if (skipped) {
         lastStep = jitter.x * spacing;
         t += lastStep;
@@ -82,8 +88,11 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
       step_ *= m.lightRatio;
     }
     tau += sunDepthIn(level, cloudSpace(dir * t + sun * way, m.planet), uVolume, uSun);
-    // The light that comes toward the eye has set out deeper inside.
-    vec3 deeper = lightVolumePlace(level, cloudSpace(dir * (t + m.transportPath), m.planet), uVolume);
+    // The light that comes toward the eye has set out deeper inside, after the path on which it forgets its direction. A
+    // path that is long, in fog, may end beyond the cloud, and would draw its end as an edge: then it is a random one.
+    float free = -log(1.0 - fract(jitter.x + 0.61803399 * points));
+    float path = m.transportPath * mix(1.0, free, smoothstep(kShortPath, kLongPath, m.transportPath));
+    vec3 deeper = lightVolumePlace(level, cloudSpace(dir * (t + path), m.planet), uVolume);
     vec2 spread = textureLod(uDiffuse, deeper, 0.0).xy;
 
     vec3 sunlight = mix(sunLow, sunHigh, clamp((q.z - m.bottom) * inverseShell, 0.0, 1.0));

@@ -25,12 +25,19 @@ vec4 historyAt(vec2 uv) {
 #endif
 }
 
-// Where the last picture showed a direction in its axes, in [0, 1]; z is not positive where it did not.
+// Of a direction in the panorama's axes.
 vec3 panoramaUv(vec3 eye) {
   float turn = atan(eye.x, eye.z) - uCamera.angles.x;
   turn -= 6.28318531 * floor(turn / 6.28318531 + 0.5);
   float rise = atan(eye.y, length(eye.xz)) - uCamera.angles.y;
   return vec3(vec2(turn, rise) / uCamera.angles.zw * 0.5 + 0.5, 1.0);
+}
+
+// Where the last picture showed a point relative to the eye, or with w = 0 a direction: in [0, 1]; z is not positive
+// where it did not.
+vec3 shownAt(vec4 p) {
+  vec3 clip = vec3(dot(uPrevious0, p), dot(uPrevious1, p), dot(uPrevious3, p));
+  return uCamera.forward.w > 0.5 ? panoramaUv(clip) : vec3(clip.xy / max(clip.z, 1e-6) * 0.5 + 0.5, clip.z);
 }
 
 #ifdef FIRST_ROUND
@@ -87,16 +94,12 @@ void main() {
   }
   vec2 uv = (pixel + 0.5) * uSize.zw;
   vec3 dir = normalize(rayAt(uv * 2.0 - 1.0));
-  vec4 p = vec4(dir * (depth * 4.0) - uWind.xyz, 1.0);
-  vec3 clip = vec3(dot(uPrevious0, p), dot(uPrevious1, p), dot(uPrevious3, p));
-  vec3 shown = vec3(clip.xy / max(clip.z, 1e-6) * 0.5 + 0.5, clip.z);
-  if (uCamera.forward.w > 0.5) shown = panoramaUv(clip);
+  vec3 shown = shownAt(vec4(dir * (depth * 4.0) - uWind.xyz, 1.0));
   vec2 before = shown.xy;
   bool known = uTiming.z > 0.5 && shown.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
   vec4 old = historyAt(before);
   if (uTiming.z < 1.5) {
-    vec3 far = vec3(dot(uPrevious0.xyz, dir), dot(uPrevious1.xyz, dir), dot(uPrevious3.xyz, dir));
-    float moved = 0.5 * length((far.xy / max(far.z, 1e-6) - clip.xy / max(clip.z, 1e-6)) * uSize.xy);
+    float moved = length((shownAt(vec4(dir, 0.0)).xy - before) * uSize.xy);
     vec4 margin = (kMargin + kMarginMoved / max(moved, 1e-3)) * (high - low);
     old = clamp(old, low - margin, high + margin);
   }

@@ -1,0 +1,172 @@
+#include "apps/viewer/frame_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/viewer/panels/panels.hpp"
+#include "apps/viewer/picture/screenshot.hpp"
+#include "welkin/base/error.hpp"
+#include "welkin/io/file.hpp"
+
+namespace welkin::viewer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kScriptFrame = 1.0 / 60.0;  // s: scripts count frames
+constexpr std::size_t kLongestScript = 1 << 20;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::unique_ptr<Platform> openPlatform(const ViewerOptions& options) {
+  const WindowOptions window{.width = options.width, .height = options.height};
+  return options.headless ? openHeadless(window) : openWindow(window);
+}
+
+std::vector<std::string> filesOf(const std::vector<PresetFile>& presets) {
+  std::vector<std::string> files;
+  files.reserve(presets.size());
+  for (const PresetFile& p : presets) files.push_back(p.file);
+  return files;
+}
+
+}  // namespace
+
+Viewer::Viewer(const ViewerOptions& options)
+    : options_(options), platform_(openPlatform(options)), interface_(*platform_), picture_(platform_->loader()),
+      gl_(gl::loadApi(platform_->loader())),
+      thumbnails_(filesOf(options.presets), options.loadTextures), bench_{.options = options,
+                                                                          .document =
+                                                                              Document(options.scene,
+                                                                                       {options.skyName, options.file}),
+                                                                          .picture = picture_,
+                                                                          .thumbnails = thumbnails_,
+                                                                          .reference = reference_,
+                                                                          .interface = interface_} {
+  if (options.uiScale > 0.0) interface_.setScale(static_cast<float>(options.uiScale));
+  if (!options.script.empty()) script_.emplace(parseScript(readFile(options.script, kLongestScript), options.script));
+  bench_.perform = [this](Action action, const std::string& argument) { perform(action, argument); };
+  bench_.openPreset = [this](const PresetFile& preset) { openSky(preset.file, {preset.name, ""}); };
+  bench_.goTo = [this](int number) { bookmark(number, false); };
+  bench_.keep = [this](int number) { bookmark(number, true); };
+  bench_.leave = [this] { running_ = false; };
+  bench_.wantedTab = Tab::parameters;
+  bench_.pace.scale = static_cast<float>(options.scale);
+  // Scripts count frames, not seconds, and must not depend on the machine's pace.
+  if (!script_) bench_.pace.wantedRate = picture_.softwareDriver() ? 25.0f : 60.0f;
+  if (picture_.softwareDriver())
+    bench_.say("No GPU was found: the processor draws, coarsely while something moves and in full at rest.");
+}
+
+// Whether nothing on screen changes by itself but thumbnails.
+bool Viewer::atRest() const {
+  return !bench_.playing && !bench_.navigation.travelling() && picture_.settled() && !adapting_;
+}
+
+// How long the loop may wait for events, ms. A script does not run away from work in the background.
+int Viewer::patience() const {
+  if (!atRest() || (lively_ > 0 && !script_)) return 0;
+  const bool traces = reference_.running() && !reference_.state().complete;
+  if (traces || !thumbnails_.complete()) return 50;
+  return script_ ? 0 : 200;
+}
+
+void Viewer::run() {
+  Clock::time_point last = Clock::now();
+  while (running_) {
+    std::vector<Event> events = platform_->poll(patience());
+    std::optional<ScriptStep> step;
+    bool finished = false;
+    if (script_) {
+      ScriptPlayer::Frame frame = script_->next([&](const std::string& name) { return interface_.items.find(name); },
+                                                atRest() && thumbnails_.complete());
+      // The user's hands stay out of a script.
+      std::erase_if(events, [](const Event& e) { return e.kind != EventKind::quit && e.kind != EventKind::resize; });
+      events.insert(events.end(), frame.events.begin(), frame.events.end());
+      step = frame.command;
+      finished = frame.finished;
+    }
+    swallowText_ = false;
+    for (const Event& event : events) handle(event);
+    lively_ = events.empty() ? lively_ - 1 : 3;
+
+    const double seconds = script_ ? kScriptFrame : std::min(secondsSince(last), 0.25);
+    last = Clock::now();
+    if (thumbnails_.collect(gl_)) lively_ = 3;
+    entitle();
+    interface_.begin(seconds);
+    drawPanels();
+    move(seconds);
+    draw(seconds);
+    if (step) command(*step);
+    if (finished) {
+      if (!options_.screenshot.empty())
+        savePngOf(gl_, platform_->framebuffer(), platform_->width(), platform_->height(), options_.screenshot);
+      running_ = false;
+    }
+    platform_->present();
+  }
+}
+
+// What the panels leave free.
+Region Viewer::region() const {
+  const int width = platform_->width(), height = platform_->height();
+  if (!bench_.panels) return {0, 0, width, height};
+  const int bar = static_cast<int>(ImGui::GetFrameHeight()), left = static_cast<int>(panelWidth_);
+  return {left, bar, std::max(width - left, 1), std::max(height - 2 * bar, 1)};
+}
+
+// The share of the window's resolution that a moving picture has: all of it on a GPU, that of 640x360 without.
+float Viewer::scaleFor(const Region& part) const {
+  if (bench_.pace.scale > 0.0f) return bench_.pace.scale;
+  if (!picture_.softwareDriver()) return 1.0f;
+  return std::min(1.0f, std::sqrt(640.0f * 360.0f / static_cast<float>(part.width) / static_cast<float>(part.height)));
+}
+
+void Viewer::draw(double seconds) {
+  takeScene();
+  const Region part = region();
+  const Clock::time_point start = Clock::now();
+  const Scene& scene = bench_.document.scene();
+  Pace& pace = bench_.pace;
+  if (pace.wantedRate != governed_) {
+    governed_ = pace.wantedRate;
+    picture_.govern(governed_ > 0.0f ? 1.0 / static_cast<double>(governed_) : 0.0);
+  }
+  if (picture_.draw(scene.camera, scene.time, part.width, part.height, scaleFor(part))) {
+    gl_.Finish();
+    picture_.took(secondsSince(start));
+    const double ms = 1000.0 * secondsSince(start);
+    pace.frameMs = pace.frameMs > 0.0 ? 0.8 * pace.frameMs + 0.2 * ms : ms;
+    pace.times[pace.next++ % Pace::kKept] = static_cast<float>(ms);
+    if (bench_.panels && bench_.tab == Tab::pace) pace.cost = picture_.cost();
+  }
+  expose(seconds);
+  tendReference();
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  picture_.show(platform_->framebuffer(), part, bench_.film, {&reference_.texture(), bench_.comparison, bench_.wipe});
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
+  interface_.draw();
+}
+
+void Viewer::command(const ScriptStep& step) {
+  if (step.verb == "screenshot") {
+    savePngOf(gl_, platform_->framebuffer(), platform_->width(), platform_->height(), step.words[0]);
+  } else if (step.verb == "picture") {
+    options_.savePicture(step.words[0], picture_.read(), bench_.film);
+  } else {
+    const std::optional<Action> action = actionNamed(step.words[0]);
+    if (!action) script_->fail(step, fmt::format("'{}' is not an action", step.words[0]));
+    perform(*action, step.words.size() > 1 ? step.words[1] : "");
+  }
+}
+
+void runViewer(const ViewerOptions& options) { Viewer(options).run(); }
+
+}  // namespace welkin::viewer

@@ -1,0 +1,71 @@
+#pragma once
+// The viewer as a whole: events in, panels, sky, picture out.
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/viewer/model/script.hpp"
+#include "apps/viewer/panels/workbench.hpp"
+#include "apps/viewer/platform/platform.hpp"
+#include "apps/viewer/viewer.hpp"
+#include "welkin/gl/api.hpp"
+
+namespace welkin::viewer {
+
+// Name of the window that holds the panels.
+inline constexpr const char* kSide = "##side";
+
+class Viewer {
+ public:
+  explicit Viewer(const ViewerOptions& options);
+  void run();
+
+ private:
+  void handle(const Event& event);
+  void pressed(Key key);
+  void perform(Action action, const std::string& argument);
+  void move(double seconds);
+  void dragView(const glm::vec2& by);
+  void draw(double seconds);
+  void drawPanels();
+  void takeScene();
+  void tendReference();
+  void expose(double seconds);
+  void command(const ScriptStep& step);
+  void openSky(const std::string& path, const Origin& origin);
+  void savePicture(const std::string& path);
+  void leave();
+  void entitle();
+  void drawTabs();
+  void saveSky(const std::string& path);
+  void bookmark(int number, bool keep);
+  bool atRest() const;
+  int patience() const;
+  Region region() const;
+  float scaleFor(const Region& part) const;
+
+  const ViewerOptions& options_;
+  std::unique_ptr<Platform> platform_;
+  Interface interface_;
+  SkyPicture picture_;
+  gl::Api gl_;
+  Thumbnails thumbnails_;
+  Reference reference_;
+  Workbench bench_;
+  std::optional<ScriptPlayer> script_;
+  bool running_ = true, swallowText_ = false;
+  int revision_ = -1;
+  int lively_ = 3;              // frames to draw before resting
+  std::optional<Scene> drawn_;  // what the picture was made for, see lightOf()
+  std::string texturesOf_, titled_;
+  int titledRevision_ = -1;
+  realtime::CustomTextures textures_;
+  glm::vec2 pointer_{0.0f};
+  std::optional<MouseButton> dragging_;
+  double meteredEv_ = 0.0;
+  bool metered_ = false, adapting_ = false;
+  float panelWidth_ = 0.0f, governed_ = 0.0f;
+};
+
+}  // namespace welkin::viewer

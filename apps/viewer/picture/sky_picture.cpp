@@ -1,0 +1,302 @@
+#include "apps/viewer/picture/sky_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "welkin/base/tone.hpp"
+#include "welkin/gl/objects.hpp"
+#include "welkin/gl/state.hpp"
+#include "welkin/realtime/frame_params.hpp"
+#include "welkin/realtime/governor.hpp"
+#include "welkin/realtime/shader_sources.hpp"
+
+namespace welkin::viewer {
+
+namespace {
+
+// Rounds of the interleave after which a picture at rest stays as it is.
+constexpr int kRounds = 4;
+
+constexpr const char* kShowText = R"(
+#include "welkin/base/law.glsl"
+#include "welkin/base/tone.glsl"
+layout(std140) uniform Tone { ToneParameters uTone; };
+uniform sampler2D uLight;
+uniform sampler2D uReference;
+uniform int uComparison;  // 0: none; then the order of Comparison, from 1
+uniform float uWipe;
+in vec2 vUv;
+layout(location = 0) out vec4 oColour;
+void main() {
+  vec3 shown = toneMap(textureLod(uLight, vUv, 0.0).rgb, uTone);
+  if (uComparison > 0) {
+    vec4 reference = textureLod(uReference, vUv, 0.0);
+    vec3 traced = toneMap(reference.rgb, uTone);
+    // What has not been traced yet stays dark.
+    if (reference.a < 0.99) traced = 0.15 * shown;
+    if (uComparison == 1) shown = vUv.x < uWipe ? shown : traced;
+    if (uComparison == 2) shown = traced;
+    if (uComparison == 3) shown = reference.a < 0.99 ? vec3(0.5) : vec3(0.5) + 4.0 * (shown - traced);
+  }
+  // Half a step of noise against bands (J. Jimenez 2014, interleaved gradient noise).
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  oColour = vec4(shown + (noise - 0.5) / 255.0, 1.0);
+}
+)";
+
+constexpr int kMeterWidth = 64, kMeterHeight = 36;
+// The mean of 4 x 4 points of each cell.
+constexpr const char* kMeterText = R"(
+uniform sampler2D uLight;
+uniform vec2 uStep;
+in vec2 vUv;
+layout(location = 0) out vec4 oLight;
+void main() {
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 16; ++i)
+    sum += textureLod(uLight, vUv + (vec2(float(i & 3), float(i >> 2)) - 1.5) * uStep, 0.0).rgb;
+  oLight = vec4(sum / 16.0, 1.0);
+}
+)";
+
+Image readTexture(const gl::Api& gl, gl::Framebuffer& framebuffer, const gl::Texture& texture) {
+  const gl::Texture* targets[] = {&texture};
+  framebuffer.target(targets);
+  const int width = texture.width(), height = texture.height();
+  std::vector<float> rgba(static_cast<std::size_t>(width) * height * 4);
+  gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl.ReadPixels(0, 0, width, height, GL_RGBA, GL_FLOAT, rgba.data());
+  gl.check("reading a picture back");
+  Image image(width, height, 3);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      std::copy_n(rgba.data() + (static_cast<std::size_t>(height - 1 - y) * width + x) * 4, 3, image.at(x, y));
+  return image;
+}
+
+// Frames until every pixel has been marched.
+int turnsOf(const Quality& quality) {
+  const int edge = quality.reprojection ? quality.interleave : 1;
+  return edge * edge;
+}
+
+// A view with its target.
+struct Canvas {
+  gl::Texture light;
+  gl::Framebuffer framebuffer;
+  GLint name = 0;
+  realtime::View view;
+  int frames = 0;  // since it was begun anew
+
+  void fit(const gl::Api& gl, int width, int height) {
+    if (light && light.width() == width && light.height() == height) return;
+    light = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba32F, width, height, 0, gl::Filter::linear,
+                        gl::Addressing::clamp, nullptr);
+    if (!name) framebuffer = gl::Framebuffer(gl);
+    const gl::Texture* targets[] = {&light};
+    framebuffer.target(targets);
+    gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
+    view.reset();
+    frames = 0;
+  }
+};
+
+}  // namespace
+
+struct SkyPicture::State {
+  gl::Api gl;
+  realtime::Renderer renderer;
+  gl::VertexArray triangle;
+  gl::Program showProgram, meterProgram;
+  mutable gl::UniformBuffer tone;
+  mutable gl::Framebuffer scratch;
+  gl::Texture meter;
+  Canvas moving, still;
+  bool stillShown = false;
+  Quality wanted, current;  // the scene's; the renderer's
+  double target = 0.0;      // s a frame while something moves; 0: ungoverned
+  std::optional<realtime::Governor> governor;
+  bool drewMoving = false;  // the last frame
+  // What was drawn last.
+  std::optional<Camera> camera;
+  double time = 0.0;
+  int width = 0, height = 0;
+  bool changed = true;  // the scene, since the last frame
+  std::string driver;
+
+  explicit State(const gl::Loader& loader)
+      : gl(gl::loadApi(loader)), renderer(loader), triangle(gl),
+        showProgram(gl, "show", "", kShowText, realtime::shaderSource),
+        meterProgram(gl, "meter", "", kMeterText, realtime::shaderSource), tone(gl), scratch(gl),
+        meter(gl, gl::Texture::Kind::plane, gl::kRgba32F, kMeterWidth, kMeterHeight, 0, gl::Filter::nearest,
+              gl::Addressing::clamp, nullptr) {
+    const auto* text = gl.GetString(GL_RENDERER);
+    driver = text ? reinterpret_cast<const char*>(text) : "unknown";
+  }
+
+  const Canvas& shown() const { return stillShown ? still : moving; }
+
+  void makeGovernor() {
+    governor.reset();
+    if (target <= 0.0) return;
+    governor.emplace(realtime::GovernorSettings{.target = target, .best = wanted});
+  }
+  const Quality& movingQuality() const { return governor ? governor->quality() : wanted; }
+
+  // Frames after which the moving picture makes way: one round, so that every pixel has been marched.
+  int movingFrames() const { return turnsOf(movingQuality()); }
+
+  void use(const Quality& quality) {
+    if (quality == current) return;
+    renderer.setQuality(quality);
+    current = quality;
+  }
+
+  void render(Canvas& canvas) {
+    realtime::Frame frame = realtime::frameOf(*camera, canvas.light.width(), canvas.light.height());
+    frame.framebuffer = static_cast<unsigned>(canvas.name);
+    frame.time = time;
+    gl.BindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    renderer.render(canvas.view, frame);
+    ++canvas.frames;
+  }
+};
+
+SkyPicture::SkyPicture(const gl::Loader& loader) : state_(std::make_unique<State>(loader)) {}
+SkyPicture::~SkyPicture() = default;
+
+void SkyPicture::setScene(const Scene& scene, const realtime::CustomTextures& textures) {
+  State& s = *state_;
+  s.renderer.setScene(scene, textures);
+  s.current = scene.quality;
+  s.changed = true;
+  if (s.wanted == scene.quality) return;
+  s.wanted = scene.quality;
+  s.makeGovernor();
+}
+
+void SkyPicture::cut() {
+  state_->moving.view.reset();
+  state_->changed = true;
+  if (state_->governor) state_->governor->cut();
+}
+
+void SkyPicture::govern(double seconds) {
+  state_->target = seconds;
+  state_->makeGovernor();
+}
+
+void SkyPicture::took(double seconds) {
+  if (state_->governor && state_->drewMoving) state_->governor->take(seconds);
+}
+
+bool SkyPicture::draw(const Camera& camera, double time, int width, int height, float scale) {
+  State& s = *state_;
+  width = std::clamp(width, 1, 8192);
+  height = std::clamp(height, 1, 8192);
+  const auto scaled = [&](int edge) {
+    return std::max(static_cast<int>(std::lround(scale * static_cast<float>(edge))), std::min(edge, 16));
+  };
+  const bool moves = s.changed || !s.camera || !sameFields(*s.camera, camera) || s.time != time || s.width != width ||
+                     s.height != height;
+  s.changed = s.drewMoving = false;
+  s.camera = camera;
+  s.time = time;
+  s.width = width;
+  s.height = height;
+  const gl::StateGuard guard(s.gl);
+  if (moves) {
+    s.stillShown = false;
+    s.still.frames = 0;
+    s.moving.fit(s.gl, scaled(width), scaled(height));
+    s.moving.frames = 0;
+  }
+  if (s.moving.frames < s.movingFrames()) {
+    s.use(s.movingQuality());
+    s.render(s.moving);
+    s.drewMoving = true;
+    return true;
+  }
+  if (settled()) return false;
+  // A view that has seen nothing: what a picture at rest looks like does not depend on what came before.
+  s.use(s.wanted);
+  s.still.fit(s.gl, width, height);
+  if (s.still.frames == 0) s.still.view.reset();
+  s.render(s.still);
+  s.stillShown = s.still.frames >= turnsOf(s.wanted);
+  return true;
+}
+
+bool SkyPicture::settled() const {
+  const State& s = *state_;
+  if (s.changed || !s.moving.light || s.moving.frames < s.movingFrames()) return false;
+  return s.still.frames >= kRounds * turnsOf(s.wanted);
+}
+
+void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& film, const Overlay& overlay) const {
+  const State& s = *state_;
+  const law::ToneParameters tone = toneParameters({.ev = film.ev - film.compensation,
+                                                   .whiteBalance = film.whiteBalance,
+                                                   .saturation = film.saturation,
+                                                   .curve = film.tone});
+  const gl::StateGuard guard(s.gl);
+  s.tone.upload(&tone, sizeof tone);
+  s.gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  s.gl.Viewport(region.x, region.y, region.width, region.height);
+  s.gl.BindVertexArray(s.triangle.id());
+  s.gl.UseProgram(s.showProgram.id());
+  s.showProgram.bindBlock("Tone", 0);
+  s.tone.bind(0);
+  s.gl.ActiveTexture(GL_TEXTURE0);
+  s.gl.BindTexture(GL_TEXTURE_2D, s.shown().light.id());
+  s.gl.Uniform1i(s.showProgram.uniform("uLight"), 0);
+  const bool compares = overlay.reference && *overlay.reference;
+  s.gl.ActiveTexture(GL_TEXTURE0 + 1);
+  s.gl.BindTexture(GL_TEXTURE_2D, compares ? overlay.reference->id() : s.shown().light.id());
+  s.gl.Uniform1i(s.showProgram.uniform("uReference"), 1);
+  s.gl.Uniform1i(s.showProgram.uniform("uComparison"), compares ? static_cast<int>(overlay.comparison) + 1 : 0);
+  s.gl.Uniform1f(s.showProgram.uniform("uWipe"), overlay.wipe);
+  s.gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  s.gl.check("showing the picture");
+}
+
+Image SkyPicture::meter() const {
+  const State& s = *state_;
+  const gl::StateGuard guard(s.gl);
+  const gl::Texture* targets[] = {&s.meter};
+  s.scratch.target(targets);
+  s.gl.BindVertexArray(s.triangle.id());
+  s.gl.UseProgram(s.meterProgram.id());
+  s.gl.ActiveTexture(GL_TEXTURE0);
+  s.gl.BindTexture(GL_TEXTURE_2D, s.shown().light.id());
+  s.gl.Uniform1i(s.meterProgram.uniform("uLight"), 0);
+  s.gl.Uniform2f(s.meterProgram.uniform("uStep"), 0.25f / kMeterWidth, 0.25f / kMeterHeight);
+  s.gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  return readTexture(s.gl, s.scratch, s.meter);
+}
+
+Image SkyPicture::read() const {
+  const State& s = *state_;
+  const gl::StateGuard guard(s.gl);
+  return readTexture(s.gl, s.scratch, s.shown().light);
+}
+
+const Quality& SkyPicture::quality() const { return state_->current; }
+int SkyPicture::width() const { return state_->shown().light.width(); }
+int SkyPicture::height() const { return state_->shown().light.height(); }
+realtime::FrameCost SkyPicture::cost() const { return state_->renderer.lastCost(); }
+void SkyPicture::countSamples(bool on) {
+  state_->renderer.countSamples(on);
+  state_->changed = true;
+}
+std::vector<realtime::MemoryRow> SkyPicture::memory() const { return state_->renderer.memory(state_->shown().view); }
+const std::string& SkyPicture::driver() const { return state_->driver; }
+bool SkyPicture::softwareDriver() const {
+  return driver().find("llvmpipe") != std::string::npos || driver().find("softpipe") != std::string::npos;
+}
+
+}  // namespace welkin::viewer

@@ -1,0 +1,37 @@
+#pragma once
+// `welkin view`: a window on a sky. The command hands in what it knows and the viewer does not: presets, files.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "welkin/base/image.hpp"
+#include "welkin/realtime/renderer.hpp"
+#include "welkin/scene/scene.hpp"
+
+namespace welkin::viewer {
+
+struct PresetFile {
+  std::string name, genus, sentence, file;
+};
+
+struct ViewerOptions {
+  Scene scene;
+  std::string file;     // of the scene; empty for none
+  std::string skyName;  // how the command line names the sky: a preset, a file, or empty for the default
+  int width = 1280, height = 720;
+  double uiScale = 0.0;  // 0: by the screen
+  double scale = 0.0;    // of the resolution while something moves; 0: chosen by itself
+  bool headless = false;
+  std::string script;      // a file of input; empty for none
+  std::string screenshot;  // a PNG of the window at the script's end, or of the first picture at rest; empty for none
+  std::vector<PresetFile> presets;
+  // Pictures and volumes that a scene names. Throws Error (badInput).
+  std::function<realtime::CustomTextures(const Scene&)> loadTextures;
+  // Writes light as .png or .exr.
+  std::function<void(const std::string& path, const Image& light, const Film& film)> savePicture;
+};
+
+// Shows the window until it is closed or the script ends. Throws Error.
+void runViewer(const ViewerOptions& options);
+
+}  // namespace welkin::viewer
