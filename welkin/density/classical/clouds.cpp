@@ -125,9 +125,10 @@ float carved(float density, const ClassicalCloud& c, const glm::vec3& p, std::ui
   if (!(density > 0.0f)) return 0.0f;
   float depth = density;
   if (c.detail > 0.0f) {
-    const float noise = law::billowFbm3(p / c.detailSize, 0, kDetailOctaves, 2, 0.5f, seed);
+    // The billows' own range, from which they reach 0 and 1 nearly.
+    const float noise = law::smoothstep(0.3f, 0.95f, law::billowFbm3(p / c.detailSize, 0, kDetailOctaves, 2, 0.5f, seed));
     const float cut = c.detail * (1.0f - noise);
-    depth = (depth - cut) / (1.0f - cut);
+    depth = (depth - cut) / (1.0f - std::min(cut, 0.99f));
   }
   return std::clamp(depth / c.edge, 0.0f, 1.0f);
 }

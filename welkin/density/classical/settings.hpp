@@ -89,7 +89,7 @@ struct FieldTable<HeightMapSettings> {
         field<&HeightMapSettings::step>("step", {0.01, 1}, {0.1, 1},
                                         "most that neighbouring squares differ, as a share of their octave's "
                                         "amplitude: 1 leaves them independent (cirrus)"),
-        field<&HeightMapSettings::smoothing>("smoothing", {0, 64}, {0, 32},
+        field<&HeightMapSettings::smoothing>("smoothing", {0, 100}, {0, 32},
                                              "how often each element becomes the mean of the nine round it"),
         field<&HeightMapSettings::elements>("elements", {256, 512, 1024, 2048, 4096},
                                             "side of the map, which repeats, in elements"),
@@ -108,13 +108,13 @@ struct ChoiceNames<ArrayInterpolation> {
 
 // A filtered array of noise: 001 ch. 5.
 struct PerlinArraySettings {
-  int cells = 6;
+  int cells = 5;
   int octaves = 4;
   float persistence = 0.5f;
   ArrayInterpolation interpolation = ArrayInterpolation::cosine;
   int smoothing = 0;
-  float cover = 0.4f;
-  float sharpness = 0.96f;
+  float cover = 0.53f;
+  float sharpness = 0.97f;
 };
 template <>
 struct FieldTable<PerlinArraySettings> {
@@ -138,11 +138,11 @@ struct FieldTable<PerlinArraySettings> {
 
 // Balls whose fields add up.
 struct MetaballSettings {
-  int count = 24;
-  float radius = 0.2f;
+  int count = 40;
+  float radius = 0.15f;
   float variation = 0.4f;
   float strength = 1.0f;
-  float threshold = 0.25f;
+  float threshold = 0.3f;
 };
 template <>
 struct FieldTable<MetaballSettings> {
@@ -167,9 +167,9 @@ struct ChoiceNames<EllipsoidTexture> {
 struct EllipsoidSettings {
   int count = 9;
   EllipsoidTexture texture = EllipsoidTexture::spectral;
-  float frequency = 5.0f;
+  float frequency = 4.0f;
   int octaves = 6;
-  float contrast = 0.7f;
+  float contrast = 0.55f;
   float middle = 0.1f;
   float rim = 0.9f;
 };
@@ -191,10 +191,10 @@ struct FieldTable<EllipsoidSettings> {
 
 // Soft balls that cover one another.
 struct ParticleSettings {
-  int count = 500;
-  float radius = 0.06f;
+  int count = 1500;
+  float radius = 0.05f;
   float variation = 0.5f;
-  float opacity = 0.5f;
+  float opacity = 0.35f;
   int puffs = 12;
 };
 template <>
