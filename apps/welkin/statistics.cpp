@@ -56,6 +56,7 @@ glm::dvec2 middleOf(const Layer& layer, const Scene& scene) {
 CloudColumn middleOf(const DensityField& field, const WorldBox& box, float extinction) {
   const double bottom = box.low.z, step = (box.high.z - bottom) / kHeroSteps;
   std::vector<glm::dvec3> points;
+  points.reserve(kHeroSteps);
   for (int i = 0; i < kHeroSteps; ++i)
     points.emplace_back(0.5 * glm::dvec2(box.low + box.high), bottom + (i + 0.5) * step);
   CloudColumn column;
