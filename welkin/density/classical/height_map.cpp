@@ -117,7 +117,7 @@ HeightMap bakeHeightMap(const HeightMapSettings& s, std::uint32_t seed) {
           const int first = i * o.side, stop = std::min(first + o.side, n);
           for (int x = first; x < stop; ++x) row[x] += value;
           const float jump = value - line[std::size_t(i > 0 ? i - 1 : o.across - 1)];
-          for (int k = -reach; k < reach; ++k) row[first + k] += jump * rounded[static_cast<std::size_t>(k) + static_cast<std::size_t>(reach)];
+          for (int k = 0; k < 2 * reach; ++k) row[first + k - reach] += jump * rounded[static_cast<std::size_t>(k)];
         }
       }
       // What lies beyond the ends belongs to the other side.
