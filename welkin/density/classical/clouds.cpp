@@ -126,7 +126,8 @@ float carved(float density, const ClassicalCloud& c, const glm::vec3& p, std::ui
   float depth = density;
   if (c.detail > 0.0f) {
     // The billows' own range, from which they reach 0 and 1 nearly.
-    const float noise = law::smoothstep(0.3f, 0.95f, law::billowFbm3(p / c.detailSize, 0, kDetailOctaves, 2, 0.5f, seed));
+    const float noise =
+        law::smoothstep(0.3f, 0.95f, law::billowFbm3(p / c.detailSize, 0, kDetailOctaves, 2, 0.5f, seed));
     const float cut = c.detail * (1.0f - noise);
     depth = (depth - cut) / (1.0f - std::min(cut, 0.99f));
   }
