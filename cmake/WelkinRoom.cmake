@@ -2,7 +2,8 @@
 # known outside as welkin::NAME. A bare room name in DEPENDS means that room's library.
 function(welkin_room NAME)
   cmake_parse_arguments(ROOM "" "" "DEPENDS" ${ARGN})
-  file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/welkin/${NAME}/*.cpp)
+  file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/welkin/${NAME}/*.cpp
+       ${PROJECT_SOURCE_DIR}/welkin/${NAME}/*/*.cpp)
   set(TARGET welkin_${NAME})
   if(SOURCES)
     add_library(${TARGET} STATIC ${SOURCES})

@@ -1,4 +1,4 @@
-// welkin info: cover, base, top and optical depth of every layer, sheet and hero cloud.
+// welkin info: cover, base, top and optical depth of every layer, sheet, classical and hero cloud.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -53,11 +53,17 @@ Json describe(const Scene& scene, const SkyStatistics& sky) {
                       {"top", std::round(middle.top)},
                       {"optical_depth", rounded(middle.opticalDepth, 4)}});
   }
-  return {{"title", scene.title},
-          {"layers", layers},
-          {"sheets", sheets},
-          {"heroes", heroes},
-          {"cloudy_above", {{"layer", kCloudyLayer}, {"sheet", kCloudySheet}}}};
+  Json classical = Json::array();
+  for (std::size_t i = 0; i < scene.classical.size(); ++i) {
+    const CloudColumn& middle = sky.classical[i];
+    classical.push_back({{"kind", nameOf(scene.classical[i].cloud.kind)},
+                         {"base", std::round(middle.base)},
+                         {"top", std::round(middle.top)},
+                         {"optical_depth", rounded(middle.opticalDepth, 4)}});
+  }
+  return {{"title", scene.title}, {"layers", layers},
+          {"sheets", sheets},     {"classical", classical},
+          {"heroes", heroes},     {"cloudy_above", {{"layer", kCloudyLayer}, {"sheet", kCloudySheet}}}};
 }
 
 void printRow(const std::string& name, const std::string& genus, const CloudStatistics& s) {
@@ -73,10 +79,14 @@ void printTable(const Scene& scene, const SkyStatistics& sky) {
     printRow(fmt::format("layer {}", i), nameOf(scene.layers[i].cloud.genus), sky.layers[i]);
   for (std::size_t i = 0; i < sky.sheets.size(); ++i)
     printRow(fmt::format("sheet {}", i), nameOf(scene.sheets[i].kind), sky.sheets[i]);
+  const auto printMiddle = [](const std::string& name, const std::string& kind, const CloudColumn& middle) {
+    fmt::print("{:<11} {:<17} {:>7.0f} {:>7.0f} {:>9.3g} over its middle\n", name, kind, middle.base, middle.top,
+               middle.opticalDepth);
+  };
+  for (std::size_t i = 0; i < sky.classical.size(); ++i)
+    printMiddle(fmt::format("classical {}", i), nameOf(scene.classical[i].cloud.kind), sky.classical[i]);
   for (std::size_t i = 0; i < sky.heroes.size(); ++i)
-    fmt::print("{:<8} {:<20} {:>7.0f} {:>7.0f} {:>9.3g} over its middle\n", fmt::format("hero {}", i),
-               nameOf(scene.heroes[i].cloud.species), sky.heroes[i].base, sky.heroes[i].top,
-               sky.heroes[i].opticalDepth);
+    printMiddle(fmt::format("hero {}", i), nameOf(scene.heroes[i].cloud.species), sky.heroes[i]);
   fmt::print(
       "\nCloudy columns are those with a vertical optical depth over {} (layers) or {} (sheets). 2 % of them begin\n"
       "below the base, 2 % end above the top. Area: mean over all columns; in cloud, median: over cloudy ones.\n",

@@ -52,21 +52,18 @@ glm::dvec2 middleOf(const Layer& layer, const Scene& scene) {
   return camera - across * glm::dot(camera - moved, across);
 }
 
-// The column over the middle of a hero cloud's box, without other clouds.
-CloudColumn middleOf(const Hero& hero, const Scene& scene) {
-  const DensityField field(
-      {.drift = {scene.wind.speed, scene.wind.from, scene.time}, .seed = scene.seed, .heroes = std::span(&hero, 1)});
-  const HeroBody& body = field.heroes().front();
-  const double bottom = body.lowest().z, step = (body.highest().z - bottom) / kHeroSteps;
+// The column over the middle of a box that holds the field's only cloud; `extinction` is the cloud's own.
+CloudColumn middleOf(const DensityField& field, const WorldBox& box, float extinction) {
+  const double bottom = box.low.z, step = (box.high.z - bottom) / kHeroSteps;
   std::vector<glm::dvec3> points;
   points.reserve(kHeroSteps);
   for (int i = 0; i < kHeroSteps; ++i)
-    points.emplace_back(0.5 * glm::dvec2(body.lowest() + body.highest()), bottom + (i + 0.5) * step);
+    points.emplace_back(0.5 * glm::dvec2(box.low + box.high), bottom + (i + 0.5) * step);
   CloudColumn column;
   double sum = 0.0;
   for (std::size_t i = 0; const float sigma : field.extinction(points)) {
     sum += sigma;
-    if (sigma > kHeroCloud * hero.cloud.extinction) {
+    if (sigma > kHeroCloud * extinction) {
       if (column.top == 0.0f) column.base = static_cast<float>(points[i].z - 0.5 * step);
       column.top = static_cast<float>(points[i].z + 0.5 * step);
     }
@@ -74,6 +71,20 @@ CloudColumn middleOf(const Hero& hero, const Scene& scene) {
   }
   column.opticalDepth = static_cast<float>(sum * step);
   return column;
+}
+
+CloudColumn middleOf(const Hero& hero, const Scene& scene) {
+  const DensityField field(
+      {.drift = {scene.wind.speed, scene.wind.from, scene.time}, .seed = scene.seed, .heroes = std::span(&hero, 1)});
+  const HeroBody& body = field.heroes().front();
+  return middleOf(field, {body.lowest(), body.highest()}, hero.cloud.extinction);
+}
+
+CloudColumn middleOf(const Classical& cloud, const Scene& scene) {
+  const DensityField field({.drift = {scene.wind.speed, scene.wind.from, scene.time},
+                            .seed = scene.seed,
+                            .classical = std::span(&cloud, 1)});
+  return middleOf(field, boundsOf(field.grids().front()), cloud.cloud.extinction);
 }
 
 double quantile(std::vector<double>& values, double share) {
@@ -116,6 +127,7 @@ DensityField densityField(const Scene& scene) {
                        .drift = {scene.wind.speed, scene.wind.from, scene.time},
                        .seed = scene.seed,
                        .grids = grids,
+                       .classical = scene.classical,
                        .heroes = scene.heroes,
                        .weatherMaps = maps});
 }
@@ -139,6 +151,7 @@ SkyStatistics measureSky(const Scene& scene) {
     s.base = s.top = height;
     sky.sheets.push_back(s);
   }
+  for (const Classical& cloud : scene.classical) sky.classical.push_back(middleOf(cloud, scene));
   for (const Hero& hero : scene.heroes) sky.heroes.push_back(middleOf(hero, scene));
   return sky;
 }

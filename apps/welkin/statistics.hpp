@@ -22,7 +22,7 @@ struct CloudStatistics {
 
 struct SkyStatistics {
   std::vector<CloudStatistics> layers, sheets;
-  std::vector<CloudColumn> heroes;  // over the middle of each
+  std::vector<CloudColumn> classical, heroes;  // over the middle of each
 };
 
 // Over a few thousand stratified columns at the scene's time. They cover twelve of a layer's largest patterns in each

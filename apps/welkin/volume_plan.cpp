@@ -39,18 +39,21 @@ std::vector<double> numbersOf(const std::string& text) {
 double extinctionAtOne(const Scene& scene, VolumeDensity density) {
   double most = 0.0;
   for (const Layer& layer : scene.layers) most = std::max(most, static_cast<double>(layer.cloud.extinction));
+  for (const Classical& cloud : scene.classical) most = std::max(most, static_cast<double>(cloud.cloud.extinction));
   for (const Hero& hero : scene.heroes) {
     const bool classic = hero.form.shape == HeroShape::classic;
     most = std::max(most, static_cast<double>(hero.cloud.extinction * (classic ? hero.classic.density : 1.0f)));
   }
   if (most == 0.0)
-    throw Error(ErrorKind::badInput, "",
-                "this sky has no layers or hero clouds with extinction: there is nothing to put into a volume");
+    throw Error(
+        ErrorKind::badInput, "",
+        "this sky has no layers, classical or hero clouds with extinction: there is nothing to put into a volume");
   if (density == VolumeDensity::normalized) return most;
   if (density == VolumeDensity::extinction) return 1.0;
   // Extinction of droplets: Q 3 LWC / (4 density r).
-  const float diameter =
-      scene.layers.empty() ? scene.heroes.front().cloud.dropletDiameter : scene.layers.front().cloud.dropletDiameter;
+  const float diameter = !scene.layers.empty()      ? scene.layers.front().cloud.dropletDiameter
+                         : !scene.classical.empty() ? scene.classical.front().cloud.dropletDiameter
+                                                    : scene.heroes.front().cloud.dropletDiameter;
   const double radius = 0.5e-6 * diameter;
   return 0.75 * kExtinctionEfficiency / (kWaterDensity * radius);
 }
@@ -65,15 +68,21 @@ Region regionOf(const std::string& text, const Scene& scene, double voxel) {
     region.low.z = std::min(region.low.z, static_cast<double>(shell.bottom));
     region.high.z = std::max(region.high.z, static_cast<double>(shell.top));
   }
-  if (scene.layers.empty() && !scene.heroes.empty()) region = {glm::dvec3(1e9), glm::dvec3(-1e9)};
-  for (const Hero& hero : scene.heroes) {
-    const HeroBody body = bakeHero(hero, {scene.wind.speed, scene.wind.from, scene.time}, scene.seed, kFewCells);
+  if (scene.layers.empty() && !(scene.classical.empty() && scene.heroes.empty()))
+    region = {glm::dvec3(1e9), glm::dvec3(-1e9)};
+  const auto include = [&](const glm::dvec3& low, const glm::dvec3& high) {
     if (scene.layers.empty()) {
-      region.low = glm::min(region.low, body.lowest());
-      region.high = glm::max(region.high, body.highest());
+      region.low = glm::min(region.low, low);
+      region.high = glm::max(region.high, high);
     }
-    region.low.z = std::min(region.low.z, body.lowest().z);
-    region.high.z = std::max(region.high.z, body.highest().z);
+    region.low.z = std::min(region.low.z, low.z);
+    region.high.z = std::max(region.high.z, high.z);
+  };
+  const Drift drift{scene.wind.speed, scene.wind.from, scene.time};
+  for (const Classical& cloud : scene.classical) include(boxOf(cloud, drift).low, boxOf(cloud, drift).high);
+  for (const Hero& hero : scene.heroes) {
+    const HeroBody body = bakeHero(hero, drift, scene.seed, kFewCells);
+    include(body.lowest(), body.highest());
   }
   if (!text.empty()) {
     const std::vector<double> n = numbersOf(text);

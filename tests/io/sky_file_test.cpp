@@ -63,6 +63,16 @@ TEST(SkyFile, OtherHeroKeysWinOverTheSpecies) {
             "[[hero]]\n");
 }
 
+TEST(SkyFile, ClassicalCloudsHaveATableForEachKind) {
+  const char* text =
+      "format = 1\n\n[[classical]]\nkind = \"automaton\"\n\n[classical.automaton]\nwidth = 192\n\n[[classical]]\n";
+  const Scene s = parseSky(text, "a");
+  ASSERT_EQ(s.classical.size(), 2u);
+  EXPECT_EQ(s.classical[0].automaton.width, 192);
+  EXPECT_TRUE(s.layers.empty());
+  EXPECT_EQ(writeSky(s), text);
+}
+
 TEST(SkyFile, WritesOnlyWhatDiffers) {
   Scene s;
   s.title = "Evening";
@@ -147,6 +157,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"format = 1\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n",
                 "a.sky.toml:6:1: a sky has at most 4 [[sheet]]"},
         // Of two mistakes, the one that comes first in the file.
+        Refused{"format = 1\n[[classical]]\n[classical.automaton]\nwidth = 100\n",
+                "a.sky.toml:4:9: classical.automaton.width is 100, but must be one of 64, 128, 192, 256, 320, 384, "
+                "448, 512"},
+        Refused{"format = 1\n[[classical]]\nkind = \"metabals\"\n",
+                "a.sky.toml:3:8: classical.kind is \"metabals\", but must be one of \"height_map\", \"perlin\", "
+                "\"metaballs\", "
+                "\"ellipsoids\", \"particles\", \"automaton\""},
         Refused{"format = 1\n[sun]\nelevation = 200\n[camera]\nfov = 0\n",
                 "a.sky.toml:3:13: sun.elevation is 200, outside -90 to 90 deg"}));
 
@@ -195,6 +212,8 @@ TEST(SkyFile, TheExampleOfTheDocsIsRight) {
   EXPECT_EQ(scene.layers.at(0).profile.erosion, 0.9f);
   EXPECT_EQ(scene.sheets.size(), 1u);
   EXPECT_EQ(scene.grids.size(), 1u);
+  ASSERT_EQ(scene.classical.size(), 1u);
+  EXPECT_EQ(scene.classical[0].metaballs.count, 20);
   ASSERT_EQ(scene.heroes.size(), 1u);
   EXPECT_EQ(scene.heroes[0].surface.edge, 20.0f);
 }

@@ -52,10 +52,12 @@ inline Scene randomScene(unsigned seed, double share = 0.5) {
     for (const Field& f : section.fields)
       if (between(random, 0, 1) < share) assign(scene, section, f, randomValue(f, random));
   scene.grids.resize(random() % (kMaxGrids + 1));
+  scene.classical.resize(random() % 3);
   scene.heroes.resize(random() % 3);
   for (const Section& section : sectionsOf(scene))
     for (const Field& f : section.fields)
-      if (section.path.starts_with("grid.") || section.path.starts_with("hero."))
+      if (section.path.starts_with("grid.") || section.path.starts_with("classical.") ||
+          section.path.starts_with("hero."))
         assign(scene, section, f, randomValue(f, random));
   return scene;
 }

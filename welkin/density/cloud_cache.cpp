@@ -414,7 +414,11 @@ CloudCache bakeCloudCache(const DensityParts& parts, const DensityTextures& text
     cache.weather =
         bakeWeatherLevels(parts.layers, extent.weather, glm::dvec2(anchor), parts.drift, parts.seed, parts.weatherMaps);
   WorldBox box{glm::dvec3(1e300), glm::dvec3(-1e300)};
-  for (const PlacedGrid& grid : parts.grids) {
+  ClassicalClouds classical;
+  classical.update(parts.classical, parts.drift, parts.seed);
+  std::vector<PlacedGrid> grids = classical.placed();
+  grids.insert(grids.begin(), parts.grids.begin(), parts.grids.end());
+  for (const PlacedGrid& grid : grids) {
     cache.grids.push_back(cachedGrid(grid, anchor));
     const WorldBox b = boundsOf(grid);
     const glm::dvec3 ground(anchor.x, anchor.y, 0.0);

@@ -45,7 +45,7 @@ struct CachedHero {
 struct CloudCache {
   std::vector<law::LayerParams> layers;
   std::vector<law::SheetParams> sheets;
-  std::vector<CachedGrid> grids;
+  std::vector<CachedGrid> grids;  // those given, then classical clouds
   std::vector<CachedHero> heroes;
   WeatherCache weather;
   DensityTextures noise;

@@ -102,7 +102,8 @@ DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures t
 
 DensityField::DensityField(const DensityParts& parts, DensityTextures textures)
     : layers_(parts.layers.begin(), parts.layers.end()), sheets_(parts.sheets.begin(), parts.sheets.end()),
-      grids_(parts.grids.begin(), parts.grids.end()), heroes_(parts.heroes.begin(), parts.heroes.end()),
+      grids_(parts.grids.begin(), parts.grids.end()), given_(grids_.size()),
+      classical_(parts.classical.begin(), parts.classical.end()), heroes_(parts.heroes.begin(), parts.heroes.end()),
       maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()), drift_(parts.drift), seed_(parts.seed),
       textures_(bakeDensityTextures(parts, std::move(textures))) {
   maps_.resize(layers_.size());
@@ -117,6 +118,9 @@ void DensityField::setDrift(const Drift& drift) {
   drift_ = drift;
   bodies_.clear();
   for (const Hero& hero : heroes_) bodies_.push_back(bakeHero(hero, drift, seed_));
+  classicalClouds_.update(classical_, drift, seed_);
+  grids_.resize(given_);
+  for (PlacedGrid& grid : classicalClouds_.placed()) grids_.push_back(std::move(grid));
 }
 
 void DensityField::addLayer(std::size_t index, std::span<const glm::dvec3> points, float footprint,

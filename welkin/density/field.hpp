@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "welkin/density/classical/clouds.hpp"
 #include "welkin/density/grid_cloud.hpp"
 #include "welkin/density/hero_body.hpp"
 #include "welkin/density/noise_settings.hpp"
@@ -22,6 +23,7 @@ struct DensityParts {
   Drift drift{};
   int seed = 1;
   std::span<const PlacedGrid> grids{};
+  std::span<const Classical> classical{};
   std::span<const Hero> heroes{};
   std::span<const Volume>
       weatherMaps{};  // one for each layer that names a map, at the layer's index; RGBA, south first
@@ -59,11 +61,12 @@ class DensityField {
   std::size_t sheetCount() const { return sheets_.size(); }
   const std::vector<Layer>& layers() const { return layers_; }
 
+  // Those given, then classical clouds.
   const std::vector<PlacedGrid>& grids() const { return grids_; }
   const std::vector<HeroBody>& heroes() const { return bodies_; }
 
-  // Extinction in 1/m of all layers, grids and hero clouds together; detail finer than `footprint` (m) is replaced by
-  // its mean, 0 is the truth.
+  // Extinction in 1/m of all layers, grids, classical and hero clouds together; detail finer than `footprint` (m) is
+  // replaced by its mean, 0 is the truth.
   float extinction(const glm::dvec3& point, float footprint = 0.0f) const;
   std::vector<float> extinction(std::span<const glm::dvec3> points, float footprint = 0.0f) const;
   // The same of one layer.
@@ -98,6 +101,9 @@ class DensityField {
   std::vector<Layer> layers_;
   std::vector<Sheet> sheets_;
   std::vector<PlacedGrid> grids_;
+  std::size_t given_;  // of the grids
+  std::vector<Classical> classical_;
+  ClassicalClouds classicalClouds_;  // at the time of the drift
   std::vector<Hero> heroes_;
   std::vector<HeroBody> bodies_;  // of the heroes, at the time of the drift
   std::vector<Volume> maps_;

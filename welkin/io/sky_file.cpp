@@ -128,13 +128,14 @@ class Reader {
 
   void sizeLists(const toml::table& root) {
     const toml::node *layers = root.get("layer"), *sheets = root.get("sheet"), *grids = root.get("grid");
-    const toml::node* heroes = root.get("hero");
+    const toml::node *classical = root.get("classical"), *heroes = root.get("hero");
     if (layers)
       scene_.layers.assign(listSize(*layers, "layer", kMaxLayers), Layer{});
-    else if (sheets || grids || heroes)
+    else if (sheets || grids || classical || heroes)
       scene_.layers.clear();
     if (sheets) scene_.sheets.assign(listSize(*sheets, "sheet", kMaxSheets), Sheet{});
     if (grids) scene_.grids.assign(listSize(*grids, "grid", kMaxGrids), GridCloud{});
+    if (classical) scene_.classical.assign(listSize(*classical, "classical", kMaxClassical), Classical{});
     if (heroes) scene_.heroes.assign(listSize(*heroes, "hero", kMaxHeroes), Hero{});
   }
 
@@ -172,12 +173,14 @@ class Reader {
 
   void readChild(const std::string& path, const toml::key& key, const toml::node& node) {
     const std::string child = joined(path, key.str());
-    if (path.empty() && (child == "layer" || child == "sheet" || child == "grid" || child == "hero")) {
+    if (path.empty() &&
+        (child == "layer" || child == "sheet" || child == "grid" || child == "classical" || child == "hero")) {
       const toml::array* array = node.as_array();
-      const std::size_t size = child == "layer"   ? scene_.layers.size()
-                               : child == "sheet" ? scene_.sheets.size()
-                               : child == "grid"  ? scene_.grids.size()
-                                                  : scene_.heroes.size();
+      const std::size_t size = child == "layer"       ? scene_.layers.size()
+                               : child == "sheet"     ? scene_.sheets.size()
+                               : child == "grid"      ? scene_.grids.size()
+                               : child == "classical" ? scene_.classical.size()
+                                                      : scene_.heroes.size();
       for (std::size_t i = 0; array && i < size; ++i)
         if (const toml::table* element = (*array)[i].as_table()) readTable(*element, fmt::format("{}.{}", child, i));
       return;
@@ -212,7 +215,7 @@ class Reader {
         known.push_back(rest.substr(0, rest.find('.')));
       }
     }
-    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet", "grid", "hero"});
+    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet", "grid", "classical", "hero"});
     const std::string near = nearestName(key, known);
     const std::string table = path.empty() ? "a sky" : tableName(path);
     return fmt::format("'{}' is not a parameter of {}; {}", key, table,
@@ -241,15 +244,15 @@ std::string tomlVersion() { return fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_
 
 std::string writeSky(const Scene& original) {
   if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets || original.grids.size() > kMaxGrids ||
-      original.heroes.size() > kMaxHeroes)
+      original.classical.size() > kMaxClassical || original.heroes.size() > kMaxHeroes)
     throw Error(ErrorKind::badInput, "",
-                fmt::format("a sky has at most {} layers, {} sheets, {} grids and {} hero clouds", kMaxLayers,
-                            kMaxSheets, kMaxGrids, kMaxHeroes));
+                fmt::format("a sky has at most {} layers, {} sheets, {} grids, {} classical and {} hero clouds",
+                            kMaxLayers, kMaxSheets, kMaxGrids, kMaxClassical, kMaxHeroes));
   Scene scene = original;
   const Scene defaults;
   Scene listsOnly;
   listsOnly.layers = scene.layers;
-  const bool noLists = scene.sheets.empty() && scene.grids.empty() && scene.heroes.empty();
+  const bool noLists = scene.sheets.empty() && scene.grids.empty() && scene.classical.empty() && scene.heroes.empty();
   const bool defaultLayers = noLists && sameScene(listsOnly, defaults);
   // What stands in the tables when nothing but presets has been read.
   Scene presets = scene;
@@ -273,7 +276,8 @@ std::string writeSky(const Scene& original) {
     }
     const bool element = std::count(section.path.begin(), section.path.end(), '.') == 1 &&
                          (section.path.starts_with("layer.") || section.path.starts_with("sheet.") ||
-                          section.path.starts_with("grid.") || section.path.starts_with("hero."));
+                          section.path.starts_with("grid.") || section.path.starts_with("classical.") ||
+                          section.path.starts_with("hero."));
     if (section.path.empty())
       out += rows + (scene.layers.empty() && noLists ? "layer = []\n" : "");
     else if (element)

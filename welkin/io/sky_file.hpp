@@ -2,8 +2,8 @@
 // Sky files: TOML with `format = 1`, described in docs/sky_file.md. The parameters are those of
 // welkin/scene/sections.hpp.
 //
-// A list in a file replaces the default list: a file with [[layer]], [[sheet]] or [[grid]] has exactly those that it
-// names, `layer = []` has none, and a file that names none of them has the default layer.
+// A list in a file replaces the default list: a file with [[layer]], [[sheet]], [[grid]], [[classical]] or [[hero]] has
+// exactly those that it names, `layer = []` has none, and a file that names none of them has the default layer.
 #include <string>
 #include <string_view>
 
@@ -19,7 +19,7 @@ Scene loadSky(const std::string& path);
 Scene parseSky(std::string_view text, const std::string& name);
 
 // The sky as text that parseSky reads as the same scene: what differs from the defaults, in the order of the sections.
-// Throws Error (badInput) for more layers, sheets or grids than a sky may have.
+// Throws Error (badInput) for more of anything than a sky may have.
 std::string writeSky(const Scene& scene);
 
 // The version of toml++ that Welkin was built with.

@@ -1,3 +1,4 @@
+#include "welkin/density/classical/clouds.hpp"
 #include "welkin/realtime/renderer.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +31,8 @@ namespace welkin::realtime {
 namespace {
 
 constexpr int kBlueNoiseSize = 64;
-constexpr int kMostWait = 16;  // frames
+constexpr int kMostWait = 16;               // frames
+constexpr std::size_t kMaxVoxelClouds = 8;  // grids, classical and hero clouds together
 constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
 // The uniform block "Layers" of the passes that march through clouds.
@@ -38,7 +40,7 @@ struct LayersBlock {
   law::LayerParams layers[kMaxLayers];
   law::ClipParams clips[kMaxLayers];
   law::SheetParams sheets[kMaxSheets];
-  law::GridParams grids[kMaxGrids];
+  law::GridParams grids[kMaxVoxelClouds];
   law::AtmosphereParams air;
   law::LightVolumeParams volume;
 };
@@ -124,8 +126,10 @@ struct Renderer::State {
   LightVolume* light = nullptr;
   int weatherNumber = 0, skyNumber = 0;  // change when they have to be made anew, or their light is of no use
   GridAtlas grids;
-  std::vector<PlacedGrid> heroGrids;    // hero clouds, in still air
-  std::vector<PlacedGrid> placedGrids;  // that it was made of, without hero clouds
+  std::vector<PlacedGrid> heroGrids;  // hero clouds, in still air
+  ClassicalClouds classical;
+  double cloudTime = 0.0;               // s, that classical clouds were made for
+  std::vector<PlacedGrid> placedGrids;  // those handed over
   float gridExtinction = 0.0f;          // their greatest, 1/m
   gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
   std::string marchDefines;
@@ -176,6 +180,11 @@ struct Renderer::State {
     return a.seed == b.seed && std::equal(a.heroes.begin(), a.heroes.end(), b.heroes.begin(), b.heroes.end(), same);
   }
 
+  static bool sameClassicals(const Scene& a, const Scene& b) {
+    return a.seed == b.seed &&
+           std::equal(a.classical.begin(), a.classical.end(), b.classical.begin(), b.classical.end(), sameClassical);
+  }
+
   // Whether another scene has the very clouds of this one, its textures being the renderer's own.
   bool sameClouds(const Scene& next, const CustomTextures& custom) const {
     const auto sameLayer = [](const Layer& a, const Layer& b) {
@@ -183,8 +192,8 @@ struct Renderer::State {
              sameFields(a.nubis, b.nubis);
     };
     return hasScene && !customised && !replacesNoise(custom) && custom.weatherMaps.empty() && sameGrids(custom) &&
-           sameHeroes(scene, next) && scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
-           sameFields(scene.noise.profile, next.noise.profile) &&
+           sameHeroes(scene, next) && sameClassicals(scene, next) && scene.seed == next.seed &&
+           sameFields(scene.wind, next.wind) && sameFields(scene.noise.profile, next.noise.profile) &&
            sameFields(scene.noise.baseShape, next.noise.baseShape) &&
            sameFields(scene.noise.detail, next.noise.detail) && sameFields(scene.noise.curl, next.noise.curl) &&
            std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameLayer) &&
@@ -196,7 +205,7 @@ struct Renderer::State {
   bool kindred(const Scene& next, const CustomTextures& custom) const {
     const auto sameShape = [](const Layer& a, const Layer& b) { return a.cloud.shape == b.cloud.shape; };
     return !customised && !replacesNoise(custom) && scene.seed == next.seed && custom.weatherMaps.empty() &&
-           sameGrids(custom) && sameHeroes(scene, next) &&
+           sameGrids(custom) && sameHeroes(scene, next) && sameClassicals(scene, next) &&
            std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameShape);
   }
 
@@ -207,6 +216,9 @@ struct Renderer::State {
   void makeTextures(const Scene& next, const CustomTextures& custom);
   void makeWeather(const Scene& next, const CustomTextures& custom);
   void makeGrids(const Scene& next, const CustomTextures& custom);
+  void makeAtlas();
+  void evolve(const Drift& drift);
+  glm::dvec2 carriedBy(const Drift& drift, std::size_t cloud) const;
   bool lit() const;
   // Over how many frames weather and light may come; after a cut nobody has seen the old ones.
   int framesOf(const View::State& view) const { return view.frames == 0 ? 1 : scene.quality.lightFrames; }
@@ -300,7 +312,7 @@ void Renderer::State::makeMarch() {
     clearance += fmt::format("clear = min(clear, gridClearance(q, way, uGrid[{}])); ", i);
   const std::string clouds =
       fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n",
-                  kMaxLayers, scene.sheets.size(), kMaxGrids, layers);
+                  kMaxLayers, scene.sheets.size(), kMaxVoxelClouds, layers);
   const std::string defines = clouds + (counting ? "#define COUNT_SAMPLES\n" : "") +
                               (lit() ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
@@ -410,24 +422,43 @@ void Renderer::State::makeGrids(const Scene& next, const CustomTextures& custom)
     throw Error(ErrorKind::badInput, "",
                 fmt::format("the sky names {} grids, and {} were handed to the renderer, which takes at most {}", named,
                             custom.grids.size(), kMaxGrids));
-  if (custom.grids.size() + next.heroes.size() > kMaxGrids)
-    throw Error(ErrorKind::badInput, "",
-                fmt::format("the real-time renderer draws at most {} grids and hero clouds together, and this sky has "
-                            "{}; the path tracer (--renderer path) draws them all",
-                            kMaxGrids, custom.grids.size() + next.heroes.size()));
+  const std::size_t all = custom.grids.size() + next.classical.size() + next.heroes.size();
+  if (all > kMaxVoxelClouds)
+    throw Error(
+        ErrorKind::badInput, "",
+        fmt::format("the real-time renderer draws at most {} grids, classical and hero clouds together, and this "
+                    "sky has {}; the path tracer (--renderer path) draws them all",
+                    kMaxVoxelClouds, all));
+  // Frames may have gone on from the scene's time.
+  if (!hasScene || scene.time != next.time) cloudTime = next.time;
+  const bool moved = classical.update(next.classical, {next.wind.speed, next.wind.from, cloudTime}, next.seed);
   const bool known = hasScene && sameHeroes(scene, next);
-  if (known && sameGrids(custom)) return;
+  if (known && sameGrids(custom) && !moved) return;
   placedGrids = custom.grids;
   if (!known) {
     heroGrids.clear();
     for (const Hero& hero : next.heroes) heroGrids.push_back(heroGrid(hero, next.time, next.seed));
   }
+  makeAtlas();
+}
+
+// Of all clouds that are voxels: those handed over, classical ones, hero clouds.
+void Renderer::State::makeAtlas() {
   std::vector<PlacedGrid> all = placedGrids;
+  for (std::size_t i = 0; i < classical.count(); ++i) all.push_back(classical.still(i));
   all.insert(all.end(), heroGrids.begin(), heroGrids.end());
   grids = GridAtlas(gl, all);
   gridExtinction = 0.0f;
   for (const PlacedGrid& grid : all)
     gridExtinction = std::max(gridExtinction, grid.voxels->maximum() * static_cast<float>(grid.extinction));
+}
+
+// Classical clouds that are others at another time.
+void Renderer::State::evolve(const Drift& drift) {
+  cloudTime = drift.time;
+  if (!classical.update(scene.classical, drift, scene.seed)) return;
+  makeAtlas();
+  ++cloudsNumber;
 }
 
 void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
@@ -473,10 +504,19 @@ void Renderer::State::weatherPass(const View::State& view, const glm::dvec2& pla
   if (changing && !weather->changing()) ++cloudsNumber;
 }
 
+// How far the wind has carried a cloud of the atlas, m.
+glm::dvec2 Renderer::State::carriedBy(const Drift& drift, std::size_t cloud) const {
+  if (cloud < placedGrids.size()) return glm::dvec2(0.0);
+  const std::size_t i = cloud - placedGrids.size();
+  if (i < classical.count()) return classical.carried(i);
+  return double(scene.heroes[i - classical.count()].cloud.drift) * driftOffset(drift);
+}
+
 // What the passes that march need to know, and the volume of light.
 void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
                                 const FrameParams& params) {
   const glm::dvec2 place = placeOf(position, frame);
+  evolve(drift);
   LayersBlock block{};
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     block.layers[i] = layerParams(scene.layers[i], glm::dvec3(place, 0.0), drift);
@@ -486,9 +526,7 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     block.sheets[i] = sheetParams(scene.sheets[i], place, drift.time, scene.seed);
   std::vector<Shell> shells;
   for (std::size_t i = 0; i < grids.count(); ++i) {
-    // Hero clouds come after the grids, and the wind carries them.
-    const double carried = i < placedGrids.size() ? 0.0 : double(scene.heroes[i - placedGrids.size()].cloud.drift);
-    block.grids[i] = grids.params(i, place - carried * driftOffset(drift));
+    block.grids[i] = grids.params(i, place - carriedBy(drift, i));
     shells.push_back(grids.shell(i));
   }
   block.air = sky.params().air;

@@ -15,5 +15,8 @@ law::MiePhase phaseOf(ScatteringPhase phase, float diameter, float asymmetry) {
 law::MiePhase phaseOf(const CloudLayer& cloud) { return phaseOf(cloud.phase, cloud.dropletDiameter, cloud.asymmetry); }
 law::MiePhase phaseOf(const HeroCloud& cloud) { return phaseOf(cloud.phase, cloud.dropletDiameter, cloud.asymmetry); }
 law::MiePhase phaseOf(const GridCloud& cloud) { return phaseOf(cloud.phase, cloud.dropletDiameter, cloud.asymmetry); }
+law::MiePhase phaseOf(const ClassicalCloud& cloud) {
+  return phaseOf(cloud.phase, cloud.dropletDiameter, cloud.asymmetry);
+}
 
 }  // namespace welkin

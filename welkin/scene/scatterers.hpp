@@ -1,5 +1,6 @@
 #pragma once
 // Phase functions of what a scene's clouds are made of.
+#include "welkin/density/classical/settings.hpp"
 #include "welkin/density/grid_cloud.hpp"
 #include "welkin/density/hero.hpp"
 #include "welkin/density/layer.hpp"
@@ -7,9 +8,10 @@
 
 namespace welkin {
 
-// Of a layer, of a cloud that comes as a volume, and of a hero cloud.
+// Of a layer, of a cloud that comes as a volume, of a classical and of a hero cloud.
 law::MiePhase phaseOf(const CloudLayer& cloud);
 law::MiePhase phaseOf(const GridCloud& cloud);
+law::MiePhase phaseOf(const ClassicalCloud& cloud);
 law::MiePhase phaseOf(const HeroCloud& cloud);
 
 }  // namespace welkin

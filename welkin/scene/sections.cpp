@@ -55,6 +55,18 @@ std::vector<Section> sectionsOf(Scene& scene) {
     all.push_back(section(fmt::format("sheet.{}", i), "a thin high cloud", scene.sheets[i]));
   for (std::size_t i = 0; i < scene.grids.size(); ++i)
     all.push_back(section(fmt::format("grid.{}", i), "a cloud from an OpenVDB file", scene.grids[i]));
+  for (std::size_t i = 0; i < scene.classical.size(); ++i) {
+    Classical& cloud = scene.classical[i];
+    const std::string path = fmt::format("classical.{}", i);
+    all.push_back(section(path, "a cloud of one of the classical models", cloud.cloud));
+    all.push_back(section(path + ".height_map", "a map of heights, for kind height_map", cloud.heightMap));
+    all.push_back(section(path + ".perlin", "a filtered array of noise, for kind perlin", cloud.perlin));
+    all.push_back(section(path + ".metaballs", "balls whose fields add up, for kind metaballs", cloud.metaballs));
+    all.push_back(section(path + ".ellipsoids", "ellipsoids with a texture, for kind ellipsoids", cloud.ellipsoids));
+    all.push_back(section(path + ".particles", "soft balls, for kind particles", cloud.particles));
+    all.push_back(
+        section(path + ".automaton", "cells of humidity, cloud and activation, for kind automaton", cloud.automaton));
+  }
   for (std::size_t i = 0; i < scene.heroes.size(); ++i) {
     Hero& hero = scene.heroes[i];
     const std::string path = fmt::format("hero.{}", i);

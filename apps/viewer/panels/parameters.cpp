@@ -57,6 +57,8 @@ void drawListButtons(Workbench& bench) {
   add("+ sheet", "sheet", scene.sheets.size() < kMaxSheets, [](Scene& s) { s.sheets.emplace_back(); });
   ImGui::SameLine();
   add("+ volume", "grid", scene.grids.size() < kMaxGrids, [](Scene& s) { s.grids.emplace_back(); });
+  ImGui::SameLine();
+  add("+ classical", "classical", scene.classical.size() < kMaxClassical, [](Scene& s) { s.classical.emplace_back(); });
 }
 
 template <class T>
@@ -64,10 +66,10 @@ void erase(std::vector<T>& list, std::size_t index) {
   if (index < list.size()) list.erase(list.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
-// "layer.1", "sheet.0", "grid.0" can be taken away. Returns whether one was.
+// "layer.1", "sheet.0", "grid.0", "classical.0" can be taken away. Returns whether one was.
 bool drawRemove(Workbench& bench, const std::string& path) {
   const std::string table = tableName(path);
-  if (table != "layer" && table != "sheet" && table != "grid") return false;
+  if (table != "layer" && table != "sheet" && table != "grid" && table != "classical") return false;
   const auto index = static_cast<std::size_t>(path.back() - '0');
   const bool pressed = ImGui::SmallButton("remove");
   bench.interface.items.mark("remove " + path);
@@ -76,6 +78,7 @@ bool drawRemove(Workbench& bench, const std::string& path) {
       if (table == "layer") erase(s.layers, index);
       if (table == "sheet") erase(s.sheets, index);
       if (table == "grid") erase(s.grids, index);
+      if (table == "classical") erase(s.classical, index);
     });
   return pressed;
 }
