@@ -13,6 +13,7 @@
 #include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
+#include "welkin/scene/rain.hpp"
 #include "welkin/scene/scatterers.hpp"
 
 namespace welkin::trace {
@@ -109,6 +110,16 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
     if (!grid.file.empty()) named.push_back(grid);
   named.resize(inputs.grids.size());
   for (const GridCloud& grid : named) k.components.push_back({grid.albedo, b.phaseOf(PhaseTable::mie(phaseOf(grid)))});
+  const float freezing = freezingLevel(scene.precipitation);
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    for (const bool snow : {false, true}) {
+      const Layer& layer = scene.layers[i];
+      const bool occurs = snow ? law::snowShare(rainTop(layer), freezing) > 0.0f : law::snowShare(0.0f, freezing) < 1.0f;
+      if (!occurs || !rains(scene, layer)) continue;
+      k.rain.push_back({i, snow, rainParams(scene, layer), rainTop(layer), rainBound(scene, layer)});
+      k.components.push_back(
+          {1.0f, b.phaseOf(PhaseTable::henyeyGreenstein(snow ? law::kSnowAsymmetry : law::kRainAsymmetry))});
+    }
   k.aerosolPhase = b.phaseOf(PhaseTable::henyeyGreenstein(scene.atmosphere.mieG));
   for (const PhaseTable& table : b.phases) k.phases.push_back(table.view());
   if (!k.components.empty()) {
