@@ -22,6 +22,6 @@
       "welkin/atmosphere/sky.glsl", "welkin/atmosphere/night.glsl"
 #define WELKIN_PRECIPITATION_LAW "welkin/precipitation/precipitation.glsl"
 #define WELKIN_SCENE_LAW "welkin/scene/camera.glsl", "welkin/scene/rain.glsl"
-#define WELKIN_LAW_FILES \
+#define WELKIN_LAW_FILES                                                                          \
   WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW, WELKIN_DENSITY_LAW, WELKIN_ATMOSPHERE_LAW, \
       WELKIN_PRECIPITATION_LAW, WELKIN_SCENE_LAW

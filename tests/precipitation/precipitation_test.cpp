@@ -39,9 +39,8 @@ TEST(Snow, FallsByAboutAMetreASecond) {
 TEST(Rain, ItsDropsCarryItsWater) {
   for (const float rate : {1.0f, 5.0f, 25.0f, 100.0f}) {
     // mm^3 of water through a m^2 in a second; 1 mm of rain is 10^6 mm^3 on a m^2.
-    const double flux = integral(0.0, [&](double d) {
-      return rainDrops(d, rate) * rainSpeed(static_cast<float>(d)) * M_PI / 6.0 * d * d * d;
-    });
+    const double flux = integral(
+        0.0, [&](double d) { return rainDrops(d, rate) * rainSpeed(static_cast<float>(d)) * M_PI / 6.0 * d * d * d; });
     EXPECT_NEAR(flux * 3600.0 / 1e6 / rate, 1.0, 0.25) << rate << " mm/h; the fit is not exact";
   }
 }
@@ -51,9 +50,8 @@ TEST(Rain, ClosedFormsAreItsIntegrals) {
     for (const float least : {0.0f, 0.6f, 1.0f}) {
       const double area = 0.25e-6 * M_PI;
       const double rain = integral(least, [&](double d) { return area * d * d * rainDrops(d, rate); });
-      const double snow = integral(least, [&](double d) {
-        return area * kSnowSwelling * kSnowSwelling * d * d * flakes(d, rate);
-      });
+      const double snow =
+          integral(least, [&](double d) { return area * kSnowSwelling * kSnowSwelling * d * d * flakes(d, rate); });
       EXPECT_NEAR(rainExtinction(rate) * sectionAbove(rainSlope(rate), least) / rain, 1.0, 2e-3);
       EXPECT_NEAR(snowExtinction(rate) * sectionAbove(snowSlope(rate), least) / snow, 1.0, 2e-3);
       const double count = integral(least, [&](double d) { return rainDrops(d, rate); });

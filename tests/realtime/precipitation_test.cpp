@@ -1,4 +1,5 @@
-// Rain and snow in the frame: drops where it rains, as many as fall, behind nothing; shafts as the path tracer has them.
+// Rain and snow in the frame: drops where it rains, as many as fall, behind nothing; shafts as the path tracer has
+// them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -127,7 +128,8 @@ TEST(Drops, AreHiddenByWhatStandsBeforeThem) {
   Frame frame = stage.frame(scene);  // reversed depth: near plane at 0.1 m over distance
   frame.background = Background::host;
   const auto drawn = [&](float distance) {
-    const gl::Texture depth = stage.depth(std::vector<float>(static_cast<std::size_t>(kWidth) * kHeight, 0.1f / distance));
+    const gl::Texture depth =
+        stage.depth(std::vector<float>(static_cast<std::size_t>(kWidth) * kHeight, 0.1f / distance));
     frame.depthTexture = depth.id();
     View view;
     return stage.draw(view, frame, glm::vec4(1.0f));

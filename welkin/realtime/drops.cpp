@@ -53,7 +53,8 @@ std::vector<glm::vec4> dropCells(const DropLevels& levels, const FrameParams& vi
   std::vector<glm::vec4> cells;
   const Pyramid pyramid = pyramidOf(view);
   for (int k = 0; k < kDropLevels && levels.reach[k] > 0.0f; ++k) {
-    const float edge = levels.edge[k], far = levels.reach[k], near = k > 0 ? law::kRainFade * levels.reach[k - 1] : 0.0f;
+    const float edge = levels.edge[k], far = levels.reach[k],
+                near = k > 0 ? law::kRainFade * levels.reach[k - 1] : 0.0f;
     const int n = static_cast<int>(std::ceil(far / edge)) + 1;
     const std::size_t first = cells.size();
     for (int z = -n; z <= n; ++z)

@@ -1,6 +1,6 @@
 #pragma once
-// Rain and snow near the eye: which cells of the falling air are drawn, and where they stand. Nothing is stored from frame
-// to frame: a particle's place follows from the number of its cell, its own number in it, and the time.
+// Rain and snow near the eye: which cells of the falling air are drawn, and where they stand. Nothing is stored from
+// frame to frame: a particle's place follows from the number of its cell, its own number in it, and the time.
 //
 // Particles stand as densely as in nature as far as levels[0].reach; each further level has an eighth of them, each
 // standing for eight times as many, out to twice the distance, so that they are about as dense in the picture.

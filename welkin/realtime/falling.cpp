@@ -88,15 +88,15 @@ void FallingPass::keepCells(const std::vector<glm::vec4>& cells) {
 
 int FallingPass::drawDrops(const Drops& drops) {
   const auto most = static_cast<std::size_t>(std::max(drops.most, 0)) / kDropsPerCell;
-  const std::vector<glm::vec4> cells =
-      dropCells(drops.levels, drops.view, glm::vec3(drops.up), drops.altitude, most);
+  const std::vector<glm::vec4> cells = dropCells(drops.levels, drops.view, glm::vec3(drops.up), drops.altitude, most);
   if (cells.empty()) return 0;
   if (!dropsProgram_.id())
-    dropsProgram_ = gl::Program(gl_, "drops",
-                                fmt::format("#define DROP_LEVELS {}\n#define DROP_CLASSES {}\n#define DROPS_PER_CELL {}\n",
-                                            kDropLevels, kFallClasses, kDropsPerCell),
-                                fileText("welkin/realtime/shaders/drops.frag.glsl"), shaderSource,
-                                fileText("welkin/realtime/shaders/drops.vert.glsl"));
+    dropsProgram_ =
+        gl::Program(gl_, "drops",
+                    fmt::format("#define DROP_LEVELS {}\n#define DROP_CLASSES {}\n#define DROPS_PER_CELL {}\n",
+                                kDropLevels, kFallClasses, kDropsPerCell),
+                    fileText("welkin/realtime/shaders/drops.frag.glsl"), shaderSource,
+                    fileText("welkin/realtime/shaders/drops.vert.glsl"));
   gl_.UseProgram(dropsProgram_.id());
   gl_.ActiveTexture(GL_TEXTURE0);
   keepCells(cells);

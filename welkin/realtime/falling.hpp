@@ -1,6 +1,6 @@
 #pragma once
-// The passes of rain and snow near the eye: a map of what falls at the ground, the light there, and the drops and flakes
-// themselves (drops.hpp). Like gl/objects.hpp, for .cpp files only.
+// The passes of rain and snow near the eye: a map of what falls at the ground, the light there, and the drops and
+// flakes themselves (drops.hpp). Like gl/objects.hpp, for .cpp files only.
 #include <functional>
 #include <string>
 
@@ -38,14 +38,14 @@ class FallingPass {
     const FrameParams& view;  // not locked to the history's grid
     const gl::UniformBuffer& frameBlock;
     DropLevels levels;
-    glm::dvec3 eye;     // in the world of the clouds, m
-    glm::dvec3 up;      // away from the planet's centre
-    float altitude;     // m
+    glm::dvec3 eye;  // in the world of the clouds, m
+    glm::dvec3 up;   // away from the planet's centre
+    float altitude;  // m
     glm::vec3 toSun;
-    glm::dvec2 wind;    // near the ground, m/s
+    glm::dvec2 wind;      // near the ground, m/s
     glm::dvec3 velocity;  // of the eye, east-north-up, m/s
-    float rate;         // mm/h for which there are all drops
-    float shutter;      // s
+    float rate;           // mm/h for which there are all drops
+    float shutter;        // s
     int most;
     GLuint hostDepth;
   };

@@ -73,7 +73,7 @@ struct RainSeen {
   Real opacity, depth;
 };
 
-const int kRainSteps = 32;
+const int kRainSteps = 48;
 const float kRainReach = 80000.0f;  // m
 
 FN RainSeen rainSeen(IN(Vec3) dir, IN(Real) limit, IN(Real) jitter, IN(Vec3) sunlight, IN(MarchParams) m, IN(Sky) sky) {
@@ -89,8 +89,8 @@ FN RainSeen rainSeen(IN(Vec3) dir, IN(Real) limit, IN(Real) jitter, IN(Vec3) sun
   Real through = 1.0f;
   Real depth = 0.0f;
   for (int i = 0; i < kRainSteps; ++i) {
-    // Steps grow with the distance.
-    Real at = (float(i) + jitter) / float(kRainSteps);
+    // Steps grow with the distance, each with a place of its own in it, so that errors cancel.
+    Real at = (float(i) + fract(jitter + 0.61803399f * float(i))) / float(kRainSteps);
     Real t = start + way * at * at;
     Real stride = way * ((2.0f * float(i) + 1.0f) / float(kRainSteps * kRainSteps));
     Vec3 q = cloudSpace(dir * t, m.planet);

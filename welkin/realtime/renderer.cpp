@@ -515,9 +515,10 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     layersBuffer.upload(&block, sizeof block);
   }
   if (rains(scene))
-    falling.drawMap({layersBuffer, marchBuffer, [this](const gl::Program& program, int unit) { bindClouds(program, unit); },
-                     sky.transmittance(), light},
-                    framebuffer, driftOffset({drift.windSpeed, drift.windFrom, 1.0}));
+    falling.drawMap(
+        {layersBuffer, marchBuffer, [this](const gl::Program& program, int unit) { bindClouds(program, unit); },
+         sky.transmittance(), light},
+        framebuffer, driftOffset({drift.windSpeed, drift.windFrom, 1.0}));
   host = hostParams(block.air, light ? &block.volume : nullptr, m, sky.light());
   host.rainScale = rains(scene) ? 1.0f / kRainMapEdge : 0.0f;
   host.freezing = freezingLevel(scene.precipitation);
@@ -631,21 +632,20 @@ void Renderer::State::dropsPass(const Frame& frame, const FrameParams& view, con
   if (drops.reach[0] <= 0.0f) return;
   const law::PlanetParams planet = planetParams(position);
   const double surface = law::kSurfaceWind;
-  particles = falling.drawDrops(
-      {.frame = frame,
-       .view = view,
-       .frameBlock = frameBuffer,
-       .levels = drops,
-       .eye = glm::dvec3(placeOf(position, frame), position.z),
-       .up = glm::dvec3(glm::vec3(planet.up)),
-       .altitude = planet.altitude,
-       .toSun = sunDirection,
-       .wind = surface * driftOffset({scene.wind.speed, scene.wind.from, 1.0}),
-       .velocity = eastNorthUp(frame.velocity, frame.up),
-       .rate = scene.precipitation.rate,
-       .shutter = scene.precipitation.shutter,
-       .most = scene.precipitation.particles,
-       .hostDepth = frame.depthTexture ? frame.depthTexture : white.id()});
+  particles = falling.drawDrops({.frame = frame,
+                                 .view = view,
+                                 .frameBlock = frameBuffer,
+                                 .levels = drops,
+                                 .eye = glm::dvec3(placeOf(position, frame), position.z),
+                                 .up = glm::dvec3(glm::vec3(planet.up)),
+                                 .altitude = planet.altitude,
+                                 .toSun = sunDirection,
+                                 .wind = surface * driftOffset({scene.wind.speed, scene.wind.from, 1.0}),
+                                 .velocity = eastNorthUp(frame.velocity, frame.up),
+                                 .rate = scene.precipitation.rate,
+                                 .shutter = scene.precipitation.shutter,
+                                 .most = scene.precipitation.particles,
+                                 .hostDepth = frame.depthTexture ? frame.depthTexture : white.id()});
 }
 
 // By night the history holds light times this: half floats lose digits below 6e-5, which is a moonlit cloud.

@@ -260,8 +260,7 @@ class Paths {
       const Mask inside = meet(sheets_[i].height - 2.0f, sheets_[i].height + kSheetThickness + 2.0f);
       cloud += select(inside, Real(s_.sheetBounds[i]), Real(0.0f));
     }
-    for (const KernelRain& r : s_.rain)
-      cloud += select(meet(-1e4f, r.top + 2.0f), Real(r.bound), Real(0.0f));
+    for (const KernelRain& r : s_.rain) cloud += select(meet(-1e4f, r.top + 2.0f), Real(r.bound), Real(0.0f));
     reach = law::max(reach, law::max(Real(0.05f), t_ * 2e-7f));
     Real air = 0.0f;
     if (s_.airScatters) {
@@ -356,7 +355,7 @@ class Paths {
   // Of what falls from a layer.
   Real fallingExtinction(std::size_t k, Vec3 q, Mask lanes) {
     const KernelRain& rain = s_.rain[k];
-    const Mask inside = both(lanes, both(q.z < rain.top, q.z > -1e3f));
+    const Mask inside = both(lanes, both(q.z<rain.top, q.z> - 1e3f));
     if (noneOf(inside)) return Real(0.0f);
     const CloudCache& c = *s_.clouds;
     const Volume& noise = layers_[rain.layer].shape == 0 ? c.noise.profileBase : c.noise.nubisBase;

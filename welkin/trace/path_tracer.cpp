@@ -114,7 +114,8 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     for (const bool snow : {false, true}) {
       const Layer& layer = scene.layers[i];
-      const bool occurs = snow ? law::snowShare(rainTop(layer), freezing) > 0.0f : law::snowShare(0.0f, freezing) < 1.0f;
+      const bool occurs =
+          snow ? law::snowShare(rainTop(layer), freezing) > 0.0f : law::snowShare(0.0f, freezing) < 1.0f;
       if (!occurs || !rains(scene, layer)) continue;
       k.rain.push_back({i, snow, rainParams(scene, layer), rainTop(layer), rainBound(scene, layer)});
       k.components.push_back(

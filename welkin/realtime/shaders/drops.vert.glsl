@@ -52,10 +52,12 @@ void main() {
                          uDrops.edges[level]);
   float chance = unitFromHash(h3), phase = unitFromHash(h4), diameter = kind.start.w;
   float shownArea = 0.785398163 * diameter * diameter * exp2(3.0 * float(level));
+  float lit = 1.0;  // flakes turn sides of their own to the light
   if (kind.flake == 1) {
     float turn = fract(uDrops.turns * floor(8.0 + 24.0 * chance));
     p += flutter(turn, phase, 6.0 * diameter);
     shownArea *= tumbled(turn, phase);
+    lit = 0.5 + unitFromHash(nextHash(h4));
   }
   float distance_ = length(p), far = uDrops.reaches[level];
   float share = 1.0 - smoothstep(kRainFade * far, far, distance_);
@@ -81,6 +83,6 @@ void main() {
   vec3 source = fallingSource(dot(p, uDrops.sun.xyz) / distance_, kind.flake == 1 ? kSnowAsymmetry : kRainAsymmetry,
                               texelFetch(uRainLight, ivec2(0), 0).rgb, texelFetch(uRainLight, ivec2(1, 0), 0).rgb);
   float opacity = share * streakOpacity(shownArea * pixels * pixels, along, across_);
-  vLight = vec4(uOptions.z > 2.5 ? vec3(0.0) : source * uDrops.sun.w, opacity);
+  vLight = vec4(uOptions.z > 2.5 ? vec3(0.0) : source * (lit * uDrops.sun.w), opacity);
   vDistance = distance_;
 }
