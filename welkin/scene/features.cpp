@@ -10,7 +10,7 @@ std::string featuresOf(const Scene& scene) {
     if (shown && !words.empty()) words += ',';
     if (shown) words += word;
   };
-  add(!scene.layers.empty() || !scene.grids.empty(), "clouds");
+  add(!scene.layers.empty() || !scene.grids.empty() || !scene.heroes.empty(), "clouds");
   add(rains(scene) && scene.precipitation.particles > 0, "drops");
   add(scene.lightning.rate > 0.0f && !scene.layers.empty(), "lightning");
   add(rains(scene), "rain");

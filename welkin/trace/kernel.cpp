@@ -78,6 +78,10 @@ class Paths {
     for (const auto& c : scene.clouds->weather.clips) clips_.push_back(std::bit_cast<law::ClipParams>(c));
     for (const KernelRain& r : scene.rain) rain_.push_back(std::bit_cast<law::RainParams>(r.params));
     for (const auto& h : scene.clouds->sheets) sheets_.push_back(std::bit_cast<law::SheetParams>(h));
+    for (const auto& h : scene.clouds->heroes) {
+      heroes_.push_back(std::bit_cast<law::HeroParams>(h.params));
+      parts_.push_back(std::bit_cast<law::HeroParts>(*h.body.parts));
+    }
     hasAir_ = air_.rayleigh.x + air_.mieExtinction.x + air_.ozone.x > 0.0f;
     cloudTop_ = m_.levels.empty() ? -1.0f : m_.top;
     for (const KernelRain& r : scene.rain) cloudTop_ = std::max(cloudTop_, r.top + 2.0f);
@@ -352,10 +356,22 @@ class Paths {
     return select(inside, value * grid.extinction, Real(0.0f));
   }
 
+  Real heroExtinction(std::size_t i, Vec3 q, Mask lanes) {
+    const law::HeroParams& hero = heroes_[i];
+    const Vec3 x = law::heroAxes(q, hero);
+    const auto within = [](Real a, float low, float high) { return both(a > low, a < high); };
+    const Mask inside = both(within(x.x, hero.low.x, hero.high.x),
+                             both(within(x.y, hero.low.y, hero.high.y), within(x.z, hero.low.z, hero.high.z)));
+    if (noneOf(both(lanes, inside))) return Real(0.0f);
+    const CloudCache& c = *s_.clouds;
+    return law::heroExtinction(q, Real(0.0f), hero, parts_[i], c.heroes[i].body.shapeView(),
+                               c.noise.heroBillows.view());
+  }
+
   // Of what falls from a layer.
   Real fallingExtinction(std::size_t k, Vec3 q, Mask lanes) {
     const KernelRain& rain = s_.rain[k];
-    const Mask inside = both(lanes, both(q.z<rain.top, q.z> - 1e3f));
+    const Mask outside = either(q.z < -1e3f, q.z > rain.top), inside = andNot(lanes, outside);
     if (noneOf(inside)) return Real(0.0f);
     const CloudCache& c = *s_.clouds;
     const Volume& noise = layers_[rain.layer].shape == 0 ? c.noise.profileBase : c.noise.nubisBase;
@@ -369,10 +385,11 @@ class Paths {
   // Extinction of component `i` at points of cloud space.
   Real extinctionOf(std::size_t i, Vec3 q, Mask lanes) {
     const CloudCache& c = *s_.clouds;
-    const std::size_t clouds = layers_.size() + sheets_.size() + c.grids.size();
+    const std::size_t flat = layers_.size() + sheets_.size(), voxels = flat + c.grids.size();
+    const std::size_t clouds = voxels + heroes_.size();
     if (i >= clouds) return fallingExtinction(i - clouds, q, lanes);
-    if (i >= layers_.size() + sheets_.size())
-      return gridExtinction(c.grids[i - layers_.size() - sheets_.size()], q, lanes);
+    if (i >= voxels) return heroExtinction(i - voxels, q, lanes);
+    if (i >= flat) return gridExtinction(c.grids[i - flat], q, lanes);
     if (i < layers_.size()) {
       const DensityTextures& t = c.noise;
       const TextureView main = c.weather.mainView(), extra = c.weather.extraView();
@@ -899,6 +916,8 @@ class Paths {
   std::vector<law::LayerParams> layers_;
   std::vector<law::ClipParams> clips_;
   std::vector<law::SheetParams> sheets_;
+  std::vector<law::HeroParams> heroes_;
+  std::vector<law::HeroParts> parts_;
   std::vector<law::RainParams> rain_;
   law::PlanetParams planet_;
   law::AtmosphereParams air_;

@@ -28,7 +28,7 @@ struct KernelRain {
   float top, bound;  // m; 1/m
 };
 
-// What scatters besides the air: the layers, then the sheets, then the grids, then what falls.
+// What scatters besides the air: the layers, then the sheets, the grids, the hero clouds and what falls.
 struct Component {
   float albedo;
   int phase;  // index of its table
