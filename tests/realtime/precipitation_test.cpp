@@ -197,7 +197,7 @@ TEST(RainShafts, LetThroughWhatThePathTracerLetsThrough) {
   for (const float temperature : {15.0f, 3.0f}) {
     SCOPED_TRACE(temperature);
     scene.precipitation.temperature = temperature;
-    if (temperature < 10.0f) scene.precipitation.rate = 8.0f;
+    if (temperature < 10.0f) scene.precipitation.rate = 0.6f, scene.precipitation.evaporation = 0.05f;
     Stage stage(kWidth, kHeight);
     const double drawn = meanOf(through(stage, scene));
     trace::PathTracer tracer(scene, {},
