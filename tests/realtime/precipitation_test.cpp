@@ -95,6 +95,11 @@ TEST(Drops, StandAsDenselyAsTheyFall) {
     EXPECT_GT(each, last) << "more rain, more drops";
     last = each;
   }
+  scene.camera.fov = 0.02f;
+  scene.precipitation.particles = 1000000;
+  const FrameParams narrow = frameParams(frameOf(scene.camera, 640, 360), 640, 360, 1, scene.quality, 0);
+  const DropLevels far = dropLevels(scene.precipitation, narrow, 60.0f);
+  EXPECT_LT(far.reach[0], 41.0f * far.edge[0]) << "a telescope does not search for a million drops";
   for (const int particles : {2000, 200000}) {
     scene.precipitation.particles = particles;
     const DropLevels levels = dropLevels(scene.precipitation, view, 60.0f);

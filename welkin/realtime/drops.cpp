@@ -8,7 +8,8 @@ namespace welkin::realtime {
 
 namespace {
 
-constexpr float kSeen = 0.6f;  // share of the drawn particles that the picture shows; cells at its rim stick out
+constexpr float kMostCells = 40.0f;  // from the eye outward: a narrow picture does not reach for all of its particles
+constexpr float kSeen = 0.6f;        // share of the drawn particles that the picture shows; cells at its rim stick out
 
 struct Pyramid {
   std::array<glm::vec3, 4> inward{};  // normals of its sides
@@ -39,8 +40,9 @@ DropLevels dropLevels(const Precipitation& precipitation, const FrameParams& vie
   l.falling = fallingAt(precipitation, altitude);
   const float each = kSeen * static_cast<float>(precipitation.particles) / kDropLevels;
   if (each < 1.0f) return l;
-  const float reach = std::cbrt(3.0f * each / (l.falling.count * pyramidOf(view).solidAngle));
   const float edge = std::cbrt(kDropsPerCell / l.falling.count);
+  const float reach =
+      std::min(std::cbrt(3.0f * each / (l.falling.count * pyramidOf(view).solidAngle)), kMostCells * edge);
   for (int k = 0; k < kDropLevels; ++k) {
     l.reach[k] = std::ldexp(reach, k);
     l.edge[k] = std::ldexp(edge, k);
@@ -88,7 +90,7 @@ std::array<law::DropClass, kDropLevels * kFallClasses> dropClasses(const DropLev
     const FallClass& fall = levels.falling.classes[static_cast<std::size_t>(i)];
     const glm::dvec3 own = glm::dvec3(wind, 0.0) - up * static_cast<double>(fall.speed);
     for (int k = 0; k < kDropLevels && levels.edge[k] > 0.0f; ++k) {
-      law::DropClass& c = all[static_cast<std::size_t>(k * kFallClasses + i)];
+      law::DropClass& c = all[static_cast<std::size_t>(k) * kFallClasses + static_cast<std::size_t>(i)];
       const glm::dvec3 inAir = (eye - own * time) / static_cast<double>(levels.edge[k]), cell = glm::floor(inAir);
       const auto number = [](double x) { return static_cast<int>(std::fmod(x, 2147483648.0)); };
       c.start = glm::vec4(glm::vec3(cell - inAir), fall.diameter * 0.001f);

@@ -371,7 +371,8 @@ class Paths {
   // Of what falls from a layer.
   Real fallingExtinction(std::size_t k, Vec3 q, Mask lanes) {
     const KernelRain& rain = s_.rain[k];
-    const Mask outside = either(q.z < -1e3f, q.z > rain.top), inside = andNot(lanes, outside);
+    const Mask below = q.z < rain.top;
+    const Mask inside = both(lanes, both(below, q.z > -1e3f));  // lanes without a question stand far below
     if (noneOf(inside)) return Real(0.0f);
     const CloudCache& c = *s_.clouds;
     const Volume& noise = layers_[rain.layer].shape == 0 ? c.noise.profileBase : c.noise.nubisBase;
