@@ -5,6 +5,7 @@
 #include "welkin/density/law.hpp"
 #include "welkin/light/law.hpp"
 #include "welkin/noise/law.hpp"
+#include "welkin/precipitation/law.hpp"
 #include "welkin/scene/law.hpp"
 
 #define WELKIN_BASE_LAW "welkin/base/law.glsl", "welkin/base/tone.glsl"
@@ -19,6 +20,8 @@
 #define WELKIN_ATMOSPHERE_LAW                                                                                \
   "welkin/atmosphere/atmosphere.glsl", "welkin/atmosphere/scattering.glsl", "welkin/atmosphere/models.glsl", \
       "welkin/atmosphere/sky.glsl", "welkin/atmosphere/night.glsl"
-#define WELKIN_SCENE_LAW "welkin/scene/camera.glsl"
-#define WELKIN_LAW_FILES \
-  WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW, WELKIN_DENSITY_LAW, WELKIN_ATMOSPHERE_LAW, WELKIN_SCENE_LAW
+#define WELKIN_PRECIPITATION_LAW "welkin/precipitation/precipitation.glsl"
+#define WELKIN_SCENE_LAW "welkin/scene/camera.glsl", "welkin/scene/rain.glsl"
+#define WELKIN_LAW_FILES                                                                          \
+  WELKIN_BASE_LAW, WELKIN_LIGHT_LAW, WELKIN_NOISE_LAW, WELKIN_DENSITY_LAW, WELKIN_ATMOSPHERE_LAW, \
+      WELKIN_PRECIPITATION_LAW, WELKIN_SCENE_LAW

@@ -11,6 +11,7 @@
 #include "welkin/noise/blue_noise.hpp"
 #include "welkin/realtime/march_params.hpp"
 #include "welkin/realtime/weather_levels.hpp"
+#include "welkin/scene/rain.hpp"
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
@@ -19,6 +20,7 @@ struct Sky {
   std::vector<LayerParams> layers;
   std::vector<ClipParams> clips;
   std::vector<SheetParams> sheets;
+  std::vector<RainParams> rain;  // of each layer; empty where nothing falls
   TextureView weather, extra, base, detail, warp, nubisBase, nubisDetail, curl;
   std::span<const PlacedGrid> grids;
   glm::dvec2 anchor{0.0};
@@ -50,6 +52,18 @@ FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky
 const int kLightVolume = 0;
 FN Real skySunDepth(IN(Vec3), IN(Sky)) { return 0.0f; }
 FN Vec2 skyBelow(IN(Vec2), IN(Sky)) { return Vec2(0.0f); }
+const int kRains = 1;
+FN Vec2 skyRain(IN(Vec3) q, IN(Sky) sky) {
+  Vec2 sum(0.0f);
+  for (std::size_t i = 0; i < sky.rain.size(); ++i) {
+    const bool nubis = sky.layers[i].shape == static_cast<int>(LayerShape::nubis);
+    const float rate = rainRate(q, sky.dither, sky.layers[i], sky.clips[i], sky.rain[i], sky.weather, sky.extra,
+                                nubis ? sky.nubisBase : sky.base);
+    const float snow = snowShare(q.z, sky.rain[i].freezing), sigma = fallingExtinction(rate, snow);
+    sum += Vec2(sigma, sigma * snow);
+  }
+  return Vec2(sum.x, sum.y / max(sum.x, 1e-12f));
+}
 FN int skySheetCount(IN(Sky) sky) { return static_cast<int>(sky.sheets.size()); }
 FN SheetParams skySheet(int i, IN(Sky) sky) { return sky.sheets[static_cast<std::size_t>(i)]; }
 
@@ -150,6 +164,8 @@ Image marchOnCpu(const Scene& scene, const Frame& frame, std::span<const PlacedG
   for (const Layer& layer : scene.layers) in.layers.push_back(layerParams(layer, frame.position, drift));
   for (const Sheet& sheet : scene.sheets)
     in.sheets.push_back(sheetParams(sheet, glm::dvec2(frame.position), frame.time, scene.seed));
+  if (rains(scene))
+    for (const Layer& layer : scene.layers) in.rain.push_back(rainParams(scene, layer));
   in.grids = grids;
   in.anchor = glm::dvec2(frame.position);
   std::vector<Shell> shells;

@@ -31,6 +31,8 @@ inline constexpr Unit kMicrometres{"um"};
 inline constexpr Unit kStops{"EV"};
 inline constexpr Unit kPixels{"px"};
 inline constexpr Unit kKelvin{"K"};
+inline constexpr Unit kCelsius{"C"};
+inline constexpr Unit kMillimetresPerHour{"mm/h"};
 
 // A closed interval, in the unit of the file.
 struct Range {

@@ -17,5 +17,7 @@ struct HostParams {
   float cloudExposure;       // from the clouds' texture to the target's units
   float depthUnit, depthFar; // m for each unit of the cloud depth, and where it means that there is no cloud
   float yUp;                 // 1 when the host's y points up
-  float spare0, spare1, spare2;
+  float rainScale;           // 1 / edge of the rain map, 1/m; 0 where nothing falls
+  float freezing;            // altitude of 0 degrees C, m
+  float spare0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "welkin/scene/rain.hpp"
 #include "welkin/scene/scatterers.hpp"
 
 namespace welkin::realtime {
@@ -150,6 +151,9 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   const glm::vec3 below = 0.5f * (glm::vec3(1.0f) + scene.ground.albedo);
   m.shadedAir = q.lightVolume && l.model != LightingModel::nubis ? glm::vec4(below / 3.14159265f, 0.0f)
                                                                  : glm::vec4(below * diffuse / 3.14159265f, veil.cover);
+  m.rain = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f - veil.cover);
+  for (const Layer& layer : scene.layers)
+    if (rains(scene, layer)) m.rain.x = std::max(m.rain.x, rainTop(layer));
   m.stepScale = kStepPerMetre * q.stepScale;
   m.minStep = kMinStep * std::min(q.stepScale, 1.5f);
   m.maxStep = kMaxStep;

@@ -23,4 +23,6 @@ struct MarchParams {
   float transportPath;  // m, on which light inside the clouds forgets its direction
   float beam;           // share of the sun's light that reaches a place, counted as light without direction
   float skyBehind;      // 1 when the sky of the table stands behind the clouds, 0 for the host's picture
+  vec4 rain;            // x: altitude above which none falls in m, y: share of its extinction that is drawn as particles
+                        // as far as z in m, w: share of sunlight that the clouds leave it, without a light volume
 };

@@ -2,7 +2,9 @@
 // reader supplies skySheetCount(Sky) and skySheet(int, Sky) besides what the march asks for, and
 //   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky)
 // whether there is a light volume, its optical depth toward the sun, and the light without direction that comes down
-// below the clouds.
+// below the clouds; and
+//   const int kRains, Vec2 skyRain(Vec3 q, Sky)
+// whether anything falls, and (its extinction in 1/m, the share of that which is snow).
 
 // The sheet's light over its opacity: a thin layer lit through half of itself.
 FN Vec3 sheetSource(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Vec3) sunlight, IN(MarchParams) m) {
@@ -63,6 +65,59 @@ FN Real sheetsThrough(IN(Vec3) q, IN(Real) slant, IN(MarchParams) m, IN(Sky) sky
     depth += select(rise > 0.0f, own, Real(0.0f));
   }
   return exp(-depth);
+}
+
+// Rain and snow along a ray: light toward the eye over its opacity, opacity, and the distance that most of it has.
+struct RainSeen {
+  Vec3 source;
+  Real opacity, depth;
+};
+
+const int kRainSteps = 48;
+const float kRainReach = 80000.0f;  // m
+
+FN RainSeen rainSeen(IN(Vec3) dir, IN(Real) limit, IN(Real) jitter, IN(Vec3) sunlight, IN(MarchParams) m, IN(Sky) sky) {
+  Vec2 shell = crossings(dir, m.rain.x, m.planet);
+  Real start = Real(0.0f);
+  Real end = shell.y;
+  if (m.planet.altitude > m.rain.x) start = shell.x;
+  Mask meets = both(end > 0.0f, start > -0.5f);
+  end = min(min(end, limit), kRainReach);
+  Real way = select(meets, max(end - start, 0.0f), Real(0.0f));
+  Real cosTheta = dot(dir, Vec3(m.sun.x, m.sun.y, m.sun.z));
+  Vec3 light = Vec3(0.0f);
+  Real through = 1.0f;
+  Real depth = 0.0f;
+  for (int i = 0; i < kRainSteps; ++i) {
+    // Steps grow with the distance, each with a place of its own in it, so that errors cancel.
+    Real at = (float(i) + fract(jitter + 0.61803399f * float(i))) / float(kRainSteps);
+    Real t = start + way * at * at;
+    Real stride = way * ((2.0f * float(i) + 1.0f) / float(kRainSteps * kRainSteps));
+    Vec3 q = cloudSpace(dir * t, m.planet);
+    Vec2 found = skyRain(q, sky);
+    Real sigma = found.x * (1.0f - m.rain.y * (1.0f - smoothstep(kRainFade * m.rain.z, m.rain.z, t)));
+    sigma = select(q.z < m.rain.x, sigma, Real(0.0f));
+    Real kept = exp(-sigma * stride);
+    Real weight = through * (1.0f - kept);
+    if (noneOf(weight > 1e-4f)) continue;
+    Real share = Real(m.rain.w);
+    Vec3 around = xyz(m.shadedAir);
+    if (kLightVolume != 0) {
+      Vec2 below = skyBelow(Vec2(q.x, q.y), sky);
+      around = (sunlight * below.x + xyz(m.ambientSky) * (3.14159265f * below.y)) * xyz(m.shadedAir);
+      share = exp(-kReduced * skySunDepth(q, sky));
+    }
+    light = light + fallingSource(cosTheta, mix(Real(kRainAsymmetry), Real(kSnowAsymmetry), found.y), sunlight * share,
+                                  around) * weight;
+    depth += weight * t;
+    through *= kept;
+  }
+  RainSeen r;
+  r.opacity = 1.0f - through;
+  Real some = 1.0f / max(r.opacity, 1e-6f);
+  r.source = light * some;
+  r.depth = depth * some;
+  return r;
 }
 
 FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams) m, IN(AtmosphereParams) air,
@@ -137,6 +192,16 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
     radiance = select(front, light + radiance * (1.0f - opaque), radiance + light * kept);
     kept = kept * (1.0f - opaque);
     depth = select(both(front, opaque > 0.1f), t, select(depth >= m.maxDistance, select(seen, t, depth), depth));
+  }
+
+  if (kRains != 0) {
+    RainSeen rain = rainSeen(dir, min(limit, select(ground, tGround, Real(1e9f))), jitter.x, sunLow, m, sky);
+    airBefore(dir, rain.depth, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
+    Vec3 light = (rain.source * through + inscatter) * rain.opacity;
+    Mask front = either(rain.depth < r.depth, toMask(m.planet.altitude < m.bottom));
+    radiance = select(front, light + radiance * (1.0f - rain.opacity), radiance + light * kept);
+    kept = kept * (1.0f - rain.opacity);
+    depth = select(both(rain.opacity > 0.3f, rain.depth < depth), rain.depth, depth);
   }
 
   Vec3 normal = normalize(up * m.planet.up.w + dir * tGround);

@@ -15,6 +15,7 @@
 #include "welkin/density/hero_grid.hpp"
 #include "welkin/gl/state.hpp"
 #include "welkin/noise/blue_noise.hpp"
+#include "welkin/realtime/falling.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/grid_atlas.hpp"
 #include "welkin/realtime/host.hpp"
@@ -25,6 +26,7 @@
 #include "welkin/realtime/surroundings.hpp"
 #include "welkin/realtime/timers.hpp"
 #include "welkin/scene/lightning.hpp"
+#include "welkin/scene/rain.hpp"
 
 namespace welkin::realtime {
 
@@ -43,6 +45,7 @@ struct LayersBlock {
   law::GridParams grids[kMaxVoxelClouds];
   law::AtmosphereParams air;
   law::LightVolumeParams volume;
+  law::RainParams rain[kMaxLayers];
 };
 
 // Texture fetches of one density sample: every layer reads its weather and its noises.
@@ -137,12 +140,15 @@ struct Renderer::State {
   bool counting = false, customised = false;
   std::shared_ptr<const SkyModel> userSky;
   double samples = 0.0, mostSamples = 0.0, rays = 0.0;
+  FallingPass falling;
+  DropLevels drops;                       // of the last lightPass
+  int particles = 0;                      // of the last frame
   law::HostParams host{};                 // of the last lightPass
   const View::State* hostView = nullptr;  // that it was for
 
   explicit State(const gl::Loader& loader)
       : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
-        nightBuffer(gl), lightningBuffer(gl), sky(gl), timers(gl) {
+        nightBuffer(gl), lightningBuffer(gl), sky(gl), timers(gl), falling(gl) {
     triangle = gl::VertexArray(gl);
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
     white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
@@ -246,6 +252,7 @@ struct Renderer::State {
   void resolvePass(View::State& view, const gl::Program& program);
   void lightningOf(const glm::dvec2& place, double time);
   void compositePass(const View::State& view, const Frame& frame, const FrameParams& params);
+  void dropsPass(const Frame& frame, const FrameParams& view, const glm::dvec3& position);
   const gl::Program& compositeProgram(const Frame& frame, const FrameParams& params);
   void checkFrame(const Frame& frame) const;
   void keepForHost(View::State& view, const Frame& frame, const FrameParams& params);
@@ -310,11 +317,21 @@ void Renderer::State::makeMarch() {
         fmt::format("clear = min(clear, layerClearance(q, way, sky.dither, uLayer[{0}], uClip[{0}], uBounds)); ", i);
   for (std::size_t i = 0; i < grids.count(); ++i)
     clearance += fmt::format("clear = min(clear, gridClearance(q, way, uGrid[{}])); ", i);
-  const std::string clouds =
+  std::string rain;
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    if (rains(scene, scene.layers[i]))
+      rain += fmt::format(
+          "rate = rainRate(q, sky.dither, uLayer[{0}], uClip[{0}], uRain[{0}], uWeather, uExtra, {1}); "
+          "snow = snowShare(q.z, uRain[{0}].freezing); sigma = fallingExtinction(rate, snow); "
+          "sum += vec3(rate, sigma, sigma * snow); ",
+          i, scene.layers[i].cloud.shape == LayerShape::nubis ? "uNubisBase" : "uBaseNoise");
+  std::string clouds =
       fmt::format("#define LAYER_SLOTS {}\n#define SHEET_COUNT {}\n#define GRID_SLOTS {}\n#define SKY_LAYERS {}\n",
                   kMaxLayers, scene.sheets.size(), kMaxVoxelClouds, layers);
+  if (!rain.empty()) clouds += "#define SKY_RAIN " + rain + "\n";
   const std::string defines = clouds + (counting ? "#define COUNT_SAMPLES\n" : "") +
                               (lit() ? "#define LIGHT_VOLUME\n#define SKY_CLEARANCE " + clearance + "\n" : "");
+  if (!rain.empty()) falling.compile(clouds, lit());
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
   if (text == marchDefines) return;
   if (lit()) {
@@ -521,6 +538,7 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
   for (std::size_t i = 0; i < scene.layers.size(); ++i) {
     block.layers[i] = layerParams(scene.layers[i], glm::dvec3(place, 0.0), drift);
     block.clips[i] = weather->params(static_cast<int>(i), place, drift);
+    block.rain[i] = rainParams(scene, scene.layers[i]);
   }
   for (std::size_t i = 0; i < scene.sheets.size(); ++i)
     block.sheets[i] = sheetParams(scene.sheets[i], place, drift.time, scene.seed);
@@ -532,6 +550,12 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
   block.air = sky.params().air;
   law::MarchParams m = marchParams(scene, planetParams(position), sunDirection, sky.light(), params.options.w,
                                    frame.background == Background::skyAndGround, shells, gridExtinction);
+  drops = {};
+  if (rains(scene) && m.planet.altitude < m.rain.x) {
+    drops = dropLevels(scene.precipitation, params, m.planet.altitude);
+    m.rain.y = drops.reach[0] > 0.0f ? drops.falling.share : 0.0f;
+    m.rain.z = drops.reach[kDropLevels - 1];
+  }
   m.skyBehind = frame.background == Background::host ? 0.0f : 1.0f;
   marchBuffer.upload(&m, sizeof m);
   if (light) {
@@ -554,7 +578,14 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
   }
+  if (rains(scene))
+    falling.drawMap(
+        {layersBuffer, marchBuffer, [this](const gl::Program& program, int unit) { bindClouds(program, unit); },
+         sky.transmittance(), light},
+        framebuffer, driftOffset({drift.windSpeed, drift.windFrom, 1.0}));
   host = hostParams(block.air, light ? &block.volume : nullptr, m, sky.light());
+  host.rainScale = rains(scene) ? 1.0f / kRainMapEdge : 0.0f;
+  host.freezing = freezingLevel(scene.precipitation);
 }
 
 void Renderer::State::bindClouds(const gl::Program& program, int unit) const {
@@ -659,6 +690,28 @@ const gl::Program& Renderer::State::compositeProgram(const Frame& frame, const F
       .first->second;
 }
 
+// Rain and snow near the eye, over the picture.
+void Renderer::State::dropsPass(const Frame& frame, const FrameParams& view, const glm::dvec3& position) {
+  particles = 0;
+  if (drops.reach[0] <= 0.0f) return;
+  const law::PlanetParams planet = planetParams(position);
+  const double surface = law::kSurfaceWind;
+  particles = falling.drawDrops({.frame = frame,
+                                 .view = view,
+                                 .frameBlock = frameBuffer,
+                                 .levels = drops,
+                                 .eye = glm::dvec3(placeOf(position, frame), position.z),
+                                 .up = glm::dvec3(glm::vec3(planet.up)),
+                                 .altitude = planet.altitude,
+                                 .toSun = sunDirection,
+                                 .wind = surface * driftOffset({scene.wind.speed, scene.wind.from, 1.0}),
+                                 .velocity = eastNorthUp(frame.velocity, frame.up),
+                                 .rate = scene.precipitation.rate,
+                                 .shutter = scene.precipitation.shutter,
+                                 .most = scene.precipitation.particles,
+                                 .hostDepth = frame.depthTexture ? frame.depthTexture : white.id()});
+}
+
 // By night the history holds light times this: half floats lose digits below 6e-5, which is a moonlit cloud.
 float Renderer::State::exposure() const {
   constexpr float kNightExposure = 4096.0f, kDark = -0.1f;  // the sine of the sun's height
@@ -755,7 +808,8 @@ void Renderer::bindHost(const View& view, unsigned program, const HostBindings& 
                                   {"uWelkinInscatter", GL_TEXTURE_3D, &s.sky.aerialInscatter()},
                                   {"uWelkinThrough", GL_TEXTURE_3D, &s.sky.aerialTransmittance()},
                                   {"uWelkinSunDepth", GL_TEXTURE_3D, s.light ? &s.light->sun() : nullptr},
-                                  {"uWelkinDiffuse", GL_TEXTURE_3D, s.light ? &s.light->diffuse() : nullptr}};
+                                  {"uWelkinDiffuse", GL_TEXTURE_3D, s.light ? &s.light->diffuse() : nullptr},
+                                  {"uWelkinRain", GL_TEXTURE_2D, rains(s.scene) ? &s.falling.map() : nullptr}};
   realtime::bindHost(s.gl, program, bindings.firstUnit, bindings.uniformBlock, v.hostBuffer, samplers);
 }
 
@@ -772,6 +826,11 @@ Outputs Renderer::outputs(const View& view) const {
     o.cloudsFactor = 1.0f / v.last->wind.w;
     o.cloudDepthOffset = glm::vec2(v.last->offset);
     o.historyShift = glm::vec2(v.last->lock);
+  }
+  if (rains(s.scene)) {
+    o.rain = nameOf(s.falling.map());
+    o.rainEdge = kRainMapEdge;
+    o.snow = law::snowShare(0.0f, freezingLevel(s.scene.precipitation));
   }
   if (s.light) o.sunDepth = nameOf(s.light->sun());
   o.toSun = hostAxes(glm::dvec3(s.sunDirection), v.up);
@@ -798,6 +857,7 @@ void Renderer::render(View& view, const Frame& frame) {
     v.exposure = s.exposure();
   }
   FrameParams params = frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
+  const FrameParams unlocked = params;
   params.wind.w *= v.exposure;
   params.options.x = 1.0f / v.exposure;
   if (v.last && v.last->options.z != params.options.z) view.reset();
@@ -823,7 +883,7 @@ void Renderer::render(View& view, const Frame& frame) {
   s.timers.mark("sky tables");
   s.weatherPass(v, place, drift);
   s.timers.mark("weather");
-  s.lightPass(v, frame, position, drift, params);
+  s.lightPass(v, frame, position, drift, unlocked);
   v.lightDrawn = false;
   s.timers.mark("light volume");
   s.marchPass(v, frame);
@@ -833,6 +893,8 @@ void Renderer::render(View& view, const Frame& frame) {
   s.timers.mark("resolve");
   s.compositePass(v, frame, params);
   s.timers.mark("composite");
+  s.dropsPass(frame, unlocked, position);
+  s.timers.mark("drops");
   s.gl.check("drawing a frame");
 
   v.last = params;
@@ -856,6 +918,7 @@ FrameCost Renderer::lastCost() {
   for (const PassTime& pass : state_->timers.read()) cost.passes.push_back({pass.name, pass.milliseconds});
   cost.densitySamples = state_->counting ? state_->samples : 0.0;
   cost.mostSamples = state_->counting ? state_->mostSamples : 0.0;
+  cost.particles = state_->particles;
   cost.rays = state_->counting ? state_->rays : 0.0;
   cost.textureFetches = cost.densitySamples * fetchesPerSample(state_->scene, state_->grids.count()) +
                         cost.rays * (kFetchesPerRay + 3.0 * static_cast<double>(state_->scene.sheets.size()));
@@ -883,6 +946,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
   if (around && around->light)
     for (const auto& [name, texture] : around->light->textures()) add(name, *texture);
+  add("rain map", s.falling.map());
   add("grid index", s.grids.index());
   add("grid bricks", s.grids.bricks());
   add("no map", s.white);

@@ -45,6 +45,7 @@ struct Frame {
   unsigned depthTexture = 0;  // the host's scene depth, as large as the target; 0: none
   DepthRange depthRange = DepthRange::minusOneToOne;
   double time = 0.0;         // s, moves the clouds
+  glm::dvec3 velocity{0.0};  // of the eye in m/s: rain and snow streak along with it
   float preExposure = 1.0f;  // factor on kcd/m^2 before it is written
   Output output = Output::light;
 };
@@ -76,6 +77,7 @@ struct FrameCost {
   double densitySamples = 0.0;  // in all; only while counting
   double mostSamples = 0.0;     // of one ray
   double rays = 0.0;
+  int particles = 0;            // drops and flakes that were drawn
   double textureFetches = 0.0;  // of the march, by what a density sample and a ray read; only while counting
 };
 struct MemoryRow {
@@ -125,11 +127,16 @@ struct Outputs {
   glm::vec3 sunIrradiance{0.0f};    // on a plane that faces the sun
   glm::vec3 skyIrradiance{0.0f};    // on level ground, without the sun
   glm::vec3 skyUnderClouds{0.0f};   // the same under the clouds, of the layers' mean cover and depth
+  // RG16F, linear, level squares round the eye, whose edge in m is `rainEdge`; x east, y north. Red: what falls at the
+  // ground in mm/h; green: how wet it is, 0 to 1. None where nothing falls.
+  TextureName rain;
+  float rainEdge = 0.0f;
+  float snow = 0.0f;  // share of it that is snow, at the ground
 };
 
 // Where bindHost puts what the include reads; the numbers are the host's to choose.
 struct HostBindings {
-  unsigned firstUnit = 0;     // of texture units, up to 7 of them
+  unsigned firstUnit = 0;     // of texture units, up to 8 of them
   unsigned uniformBlock = 0;  // binding of the uniform block
 };
 

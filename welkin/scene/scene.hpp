@@ -13,6 +13,7 @@
 #include "welkin/density/layer.hpp"
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/light/settings.hpp"
+#include "welkin/precipitation/settings.hpp"
 #include "welkin/scene/quality.hpp"
 
 namespace welkin {
@@ -135,6 +136,7 @@ struct Scene {
   Night night;
   Atmosphere atmosphere;
   Wind wind;
+  Precipitation precipitation;
   Lightning lightning;
   Ground ground;
   LightingSettings lighting;

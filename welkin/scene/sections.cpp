@@ -33,6 +33,7 @@ std::vector<Section> sectionsOf(Scene& scene) {
   all.push_back(section("night", "stars and the air's own light", scene.night));
   all.push_back(section("atmosphere", "the air and what is behind it", scene.atmosphere));
   all.push_back(section("wind", "the wind that moves the layers", scene.wind));
+  all.push_back(section("precipitation", "rain and snow", scene.precipitation));
   all.push_back(section("lightning", "flashes inside thunderclouds, in real time", scene.lightning));
   all.push_back(section("ground", "the land below", scene.ground));
   all.push_back(section("lighting", "how clouds are lit in real time", scene.lighting));

@@ -76,6 +76,7 @@ class Paths {
         total_(static_cast<std::size_t>(job.width) * job.height * job.samples) {
     for (const auto& l : scene.clouds->layers) layers_.push_back(std::bit_cast<law::LayerParams>(l));
     for (const auto& c : scene.clouds->weather.clips) clips_.push_back(std::bit_cast<law::ClipParams>(c));
+    for (const KernelRain& r : scene.rain) rain_.push_back(std::bit_cast<law::RainParams>(r.params));
     for (const auto& h : scene.clouds->sheets) sheets_.push_back(std::bit_cast<law::SheetParams>(h));
     for (const auto& h : scene.clouds->heroes) {
       heroes_.push_back(std::bit_cast<law::HeroParams>(h.params));
@@ -83,6 +84,7 @@ class Paths {
     }
     hasAir_ = air_.rayleigh.x + air_.mieExtinction.x + air_.ozone.x > 0.0f;
     cloudTop_ = m_.levels.empty() ? -1.0f : m_.top;
+    for (const KernelRain& r : scene.rain) cloudTop_ = std::max(cloudTop_, r.top + 2.0f);
     for (const auto& h : sheets_) cloudTop_ = std::max(cloudTop_, h.height + kSheetThickness + 2.0f);
     pathTop_ = scene.airScatters ? air_.thickness : cloudTop_;
     askScale_ = kAsking / std::max(air_.sunIrradiance.x + air_.sunIrradiance.y + air_.sunIrradiance.z, 1e-20f);
@@ -262,6 +264,7 @@ class Paths {
       const Mask inside = meet(sheets_[i].height - 2.0f, sheets_[i].height + kSheetThickness + 2.0f);
       cloud += select(inside, Real(s_.sheetBounds[i]), Real(0.0f));
     }
+    for (const KernelRain& r : s_.rain) cloud += select(meet(-1e4f, r.top + 2.0f), Real(r.bound), Real(0.0f));
     reach = law::max(reach, law::max(Real(0.05f), t_ * 2e-7f));
     Real air = 0.0f;
     if (s_.airScatters) {
@@ -365,10 +368,27 @@ class Paths {
                                c.noise.heroBillows.view());
   }
 
+  // Of what falls from a layer.
+  Real fallingExtinction(std::size_t k, Vec3 q, Mask lanes) {
+    const KernelRain& rain = s_.rain[k];
+    const Mask below = q.z < rain.top;
+    const Mask inside = both(lanes, both(below, q.z > -1e3f));  // lanes without a question stand far below
+    if (noneOf(inside)) return Real(0.0f);
+    const CloudCache& c = *s_.clouds;
+    const Volume& noise = layers_[rain.layer].shape == 0 ? c.noise.profileBase : c.noise.nubisBase;
+    const Real rate = law::rainRate(q, Real(0.0f), layers_[rain.layer], clips_[rain.layer], rain_[k],
+                                    c.weather.mainView(), c.weather.extraView(), noise.view());
+    const Real share = law::snowShare(q.z, Real(rain_[k].freezing));
+    const Real sigma = law::fallingExtinction(rate, share) * (rain.snow ? share : 1.0f - share);
+    return select(inside, sigma, Real(0.0f));
+  }
+
   // Extinction of component `i` at points of cloud space.
   Real extinctionOf(std::size_t i, Vec3 q, Mask lanes) {
     const CloudCache& c = *s_.clouds;
     const std::size_t flat = layers_.size() + sheets_.size(), voxels = flat + c.grids.size();
+    const std::size_t clouds = voxels + heroes_.size();
+    if (i >= clouds) return fallingExtinction(i - clouds, q, lanes);
     if (i >= voxels) return heroExtinction(i - voxels, q, lanes);
     if (i >= flat) return gridExtinction(c.grids[i - flat], q, lanes);
     if (i < layers_.size()) {
@@ -899,6 +919,7 @@ class Paths {
   std::vector<law::SheetParams> sheets_;
   std::vector<law::HeroParams> heroes_;
   std::vector<law::HeroParts> parts_;
+  std::vector<law::RainParams> rain_;
   law::PlanetParams planet_;
   law::AtmosphereParams air_;
   law::CameraParams camera_;

@@ -7,6 +7,7 @@
 #include "welkin/atmosphere/tables.hpp"
 #include "welkin/density/cloud_cache.hpp"
 #include "welkin/scene/camera.hpp"
+#include "welkin/scene/rain.hpp"
 #include "welkin/trace/phase_table.hpp"
 #include "welkin/trace/sky_distribution.hpp"
 
@@ -19,7 +20,15 @@ inline constexpr float kAirClimb = 1000.0f;  // m, by which a step may change it
 // A sheet is a slab of this height above Sheet::height; its law knows a vertical optical depth only.
 inline constexpr float kSheetThickness = 200.0f;  // m
 
-// What scatters besides the air: the layers, then the sheets, the grids and the hero clouds.
+// What falls from a layer: the haze of its drops or that of its flakes.
+struct KernelRain {
+  std::size_t layer;
+  bool snow;
+  law::RainParams params;
+  float top, bound;  // m; 1/m
+};
+
+// What scatters besides the air: the layers, then the sheets, the grids, the hero clouds and what falls.
 struct Component {
   float albedo;
   int phase;  // index of its table
@@ -30,6 +39,7 @@ struct KernelScene {
   std::vector<Component> components;
   std::vector<PhaseTableView> phases;
   std::vector<float> sheetBounds;  // 1/m
+  std::vector<KernelRain> rain;
   std::vector<float> airBounds;
   law::PlanetParams planet{};
   law::AtmosphereParams air{};

@@ -13,6 +13,7 @@
 #include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
+#include "welkin/scene/rain.hpp"
 #include "welkin/scene/scatterers.hpp"
 
 namespace welkin::trace {
@@ -115,6 +116,17 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
     k.components.push_back({cloud.cloud.albedo, b.phaseOf(PhaseTable::mie(phaseOf(cloud.cloud)))});
   for (const Hero& hero : scene.heroes)
     k.components.push_back({hero.cloud.albedo, b.phaseOf(PhaseTable::mie(phaseOf(hero.cloud)))});
+  const float freezing = freezingLevel(scene.precipitation);
+  for (std::size_t i = 0; i < scene.layers.size(); ++i)
+    for (const bool snow : {false, true}) {
+      const Layer& layer = scene.layers[i];
+      const bool occurs =
+          snow ? law::snowShare(rainTop(layer), freezing) > 0.0f : law::snowShare(0.0f, freezing) < 1.0f;
+      if (!occurs || !rains(scene, layer)) continue;
+      k.rain.push_back({i, snow, rainParams(scene, layer), rainTop(layer), rainBound(scene, layer)});
+      k.components.push_back(
+          {1.0f, b.phaseOf(PhaseTable::henyeyGreenstein(snow ? law::kSnowAsymmetry : law::kRainAsymmetry))});
+    }
   k.aerosolPhase = b.phaseOf(PhaseTable::henyeyGreenstein(scene.atmosphere.mieG));
   for (const PhaseTable& table : b.phases) k.phases.push_back(table.view());
   if (!k.components.empty()) {

@@ -26,6 +26,8 @@ constexpr std::array kSimple{
     SimpleField{"atmosphere", "haze"},
     SimpleField{"wind", "speed"},
     SimpleField{"wind", "from"},
+    SimpleField{"precipitation", "rate"},
+    SimpleField{"precipitation", "temperature"},
     SimpleField{"lightning", "rate"},
     SimpleField{"ground", "albedo"},
     SimpleField{"lighting", "model"},

@@ -17,6 +17,7 @@ precision highp sampler3D;
 #include "welkin/noise/hash.glsl"
 #include "welkin/density/space.glsl"
 #include "welkin/density/weather.glsl"
+#include "welkin/precipitation/precipitation.glsl"
 #include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/host_params.glsl"
 
@@ -28,6 +29,7 @@ uniform sampler3D uWelkinInscatter;
 uniform sampler3D uWelkinThrough;
 uniform sampler3D uWelkinSunDepth;
 uniform sampler3D uWelkinDiffuse;
+uniform sampler2D uWelkinRain;
 
 // Light that falls on a point.
 struct WelkinLight {
@@ -41,6 +43,13 @@ struct WelkinFront {
   vec3 light;    // that it sends to the eye, in the target's units
   vec3 through;  // share of the point's own light that it lets through
   float clouds;  // the clouds' part of that share
+};
+
+// What falls from the clouds at a point, within 4 km of the eye.
+struct WelkinRain {
+  float rate;     // of water at the ground there, mm/h
+  float snow;     // share of it that is snow
+  float wetness;  // of an open surface: 0 dry, 1 soaked, from the rain of the last ten minutes
 };
 
 vec3 eastNorthUpOf(vec3 p) { return uWelkin.yUp > 0.5 ? vec3(p.x, -p.z, p.y) : p; }
@@ -120,6 +129,16 @@ WelkinLight welkinLight(vec3 fromEye) {
   float height = clamp((q.z - uWelkin.bottom) / max(uWelkin.top - uWelkin.bottom, 1.0), 0.0, 1.0);
   light.sky = mix(skyBelow(q.xy, sunAt(uWelkin.bottom, d)), uWelkin.clearSky.xyz, height);
   return light;
+}
+
+WelkinRain welkinRain(vec3 fromEye) {
+  vec3 q = cloudSpace(eastNorthUpOf(fromEye), uWelkin.planet);
+  vec2 found = textureLod(uWelkinRain, q.xy * uWelkin.rainScale + 0.5, 0.0).xy * sign(uWelkin.rainScale);
+  WelkinRain rain;
+  rain.rate = found.x;
+  rain.snow = snowShare(q.z, uWelkin.freezing);
+  rain.wetness = found.y * (1.0 - rain.snow);
+  return rain;
 }
 
 // The air alone: for what the host draws before the clouds, which are then laid over it.

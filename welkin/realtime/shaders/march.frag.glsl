@@ -27,6 +27,17 @@ float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolum
 int skySheetCount(Sky sky) { return SHEET_COUNT; }
 SheetParams skySheet(int i, Sky sky) { return uSheet[i]; }
 
+#ifdef SKY_RAIN
+const int kRains = 1;
+vec2 skyRain(vec3 q, Sky sky) {
+  vec3 found = skyFalling(q, sky);
+  return vec2(found.y, found.z / max(found.y, 1e-12));
+}
+#else
+const int kRains = 0;
+vec2 skyRain(vec3 q, Sky sky) { return vec2(0.0); }
+#endif
+
 vec2 skyBelow(vec2 p, Sky sky) { return lookupBelow(p, uVolume, uDiffuse); }
 
 #ifdef LIGHTNING
@@ -49,6 +60,7 @@ float skyClearance(vec3 q, vec3 way, Sky sky) {
 #else
 #include "welkin/realtime/march.glsl"
 #endif
+#include "welkin/realtime/drops.glsl"
 #include "welkin/realtime/ray.glsl"
 
 layout(std140) uniform March { MarchParams uMarch; };

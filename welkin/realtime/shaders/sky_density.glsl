@@ -1,5 +1,6 @@
 // The density of all layers at a point, for the passes that march through it. Includers have the law's vocabulary and
-// the atmosphere before it, and the makers of the text define LAYER_SLOTS, GRID_SLOTS, SHEET_COUNT and SKY_LAYERS.
+// the atmosphere before it, and the makers of the text define LAYER_SLOTS, GRID_SLOTS, SHEET_COUNT and SKY_LAYERS; and
+// SKY_RAIN where anything falls.
 #include "welkin/noise/hash.glsl"
 #include "welkin/noise/lattice.glsl"
 #include "welkin/noise/remap.glsl"
@@ -8,6 +9,8 @@
 #include "welkin/density/profile.glsl"
 #include "welkin/density/nubis.glsl"
 #include "welkin/density/sheet.glsl"
+#include "welkin/precipitation/precipitation.glsl"
+#include "welkin/scene/rain.glsl"
 #include "welkin/realtime/grid.glsl"
 #include "welkin/realtime/light_volume.glsl"
 
@@ -22,6 +25,7 @@ layout(std140) uniform Layers {
   GridParams uGrid[GRID_SLOTS];
   AtmosphereParams uAir;
   LightVolumeParams uVolume;
+  RainParams uRain[LAYER_SLOTS];
 };
 
 uniform sampler3D uBaseNoise;
@@ -42,3 +46,13 @@ vec3 skyExtinction(vec3 q, float footprint, bool full, Sky sky) {
   SKY_LAYERS
   return sum;
 }
+
+#ifdef SKY_RAIN
+// (Rate in mm/h, extinction in 1/m, that of snow) of what falls at a point.
+vec3 skyFalling(vec3 q, Sky sky) {
+  vec3 sum = vec3(0.0);
+  float rate, snow, sigma;
+  SKY_RAIN
+  return sum;
+}
+#endif
