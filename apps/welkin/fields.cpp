@@ -118,7 +118,8 @@ void printMarkdown(const std::vector<Section>& sections) {
 void addFields(CLI::App& app) {
   auto* command = app.add_subcommand("fields", "every parameter of a sky with unit, default, range and help");
   const auto sky = std::make_shared<SkyArguments>();
-  command->add_option("sky", sky->sky, "with --json: a sky file or preset, whose values are printed too")->type_name("SKY");
+  command->add_option("sky", sky->sky, "with --json: a sky file or preset, whose values are printed too")
+      ->type_name("SKY");
   const auto json = addJsonFlag(*command);
   const auto markdown = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown, "print tables for a page of documentation");
@@ -126,11 +127,8 @@ void addFields(CLI::App& app) {
     Scene scene = sky->scene();
     const bool values = !sky->sky.empty();
     if (values && !*json) throw UsageError("fields: the values of a sky are for programs: add --json");
-    if (!values) {
-      scene.sheets.emplace_back();
-      scene.grids.emplace_back();
-      scene.heroes.emplace_back();
-    }
+    for (const SceneList& list : listsOf(scene))
+      if (!values && list.size == 0) list.append();
     const std::vector<Section> sections = sectionsOf(scene);
     if (*json)
       printJson(sections, values);

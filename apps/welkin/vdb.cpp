@@ -150,11 +150,12 @@ void announce(const Job& job, const VolumeEstimate& estimate, bool json) {
       size.x, size.y, size.z, job.voxel, job.region.low.x, job.region.high.x, job.region.low.y, job.region.high.y,
       job.region.low.z, job.region.high.z);
   text += fmt::format("about {:.2g} million active voxels ({:.0f} %){}, {} in {} file{}, {:.0f} s\n",
-             estimate.activeVoxels / 1e6, 100.0 * estimate.activeVoxels / estimate.voxels, frames > 1 ? " a frame" : "",
-             sizeText(bytes * frames), all, all > 1 ? "s" : "", std::ceil(estimate.seconds * frames));
+                      estimate.activeVoxels / 1e6, 100.0 * estimate.activeVoxels / estimate.voxels,
+                      frames > 1 ? " a frame" : "", sizeText(bytes * frames), all, all > 1 ? "s" : "",
+                      std::ceil(estimate.seconds * frames));
   if (!job.scene.sheets.empty())
     text += fmt::format("note: {} thin high sheet{} left out; a sheet has no thickness\n", job.scene.sheets.size(),
-               job.scene.sheets.size() == 1 ? " is" : "s are");
+                        job.scene.sheets.size() == 1 ? " is" : "s are");
   if (!json) fmt::print("{}", text);
   std::fflush(stdout);
   if (all > kMostFiles) throw UsageError(fmt::format("that makes more than {} files", kMostFiles));

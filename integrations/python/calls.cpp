@@ -34,8 +34,10 @@ void defineErrors(py::module_& module) {
   const py::handle runtime = PyExc_RuntimeError, value = PyExc_ValueError;
   types.error = newType(module, "Error", "What went wrong, where, and what to do; `where` is a file, path or value.",
                         py::make_tuple(runtime));
-  types.badInput = newType(module, "BadInput", "A file or value handed in is wrong.", py::make_tuple(types.error, value));
-  types.failed = newType(module, "Failed", "It could not be done: disk full, cannot write.", py::make_tuple(types.error));
+  types.badInput =
+      newType(module, "BadInput", "A file or value handed in is wrong.", py::make_tuple(types.error, value));
+  types.failed =
+      newType(module, "Failed", "It could not be done: disk full, cannot write.", py::make_tuple(types.error));
   types.noOpenGl = newType(module, "NoOpenGl", "No usable OpenGL context.", py::make_tuple(types.error));
   types.cancelled = newType(module, "Cancelled", "The progress callback returned False.", py::make_tuple(types.error));
   py::register_exception_translator([](std::exception_ptr thrown) {

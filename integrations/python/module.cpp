@@ -32,8 +32,8 @@ namespace {
 
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-constexpr int kMostPixels = 16384;     // of a side
-constexpr double kMostVoxels = 2e9;    // of an array
+constexpr int kMostPixels = 16384;   // of a side
+constexpr double kMostVoxels = 2e9;  // of an array
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw Error(ErrorKind::badInput, where, what);
@@ -182,7 +182,7 @@ py::dict bake(const Sky& sky, const std::filesystem::path& file, double voxel, c
   const Scene scene = sky.scene;
   const double one = app::extinctionAtOne(scene, convention.density);
   const app::VolumeMedium medium = app::mediumOf(scene, convention.density);
-  const app::VoxelBox where = app::boxOf(regionOf(box, scene, voxel), voxel, convention);
+  const VoxelBox where = app::boxOf(regionOf(box, scene, voxel), voxel, convention);
   const float most = Watch(std::move(progress)).run([&](const Progress& watch) {
     const VoxelGrid grid = bakeVoxels(app::densityField(scene), where, app::bakingOf(convention, one), watch);
     app::saveVolume(path, grid, app::volumeNotes(scene, scene.title, convention, scene.time), bits);
@@ -213,8 +213,9 @@ py::array_t<float> extinction(const Clouds& clouds, const Doubles& points, float
 
 py::array_t<float> opticalDepth(const Clouds& clouds, const Doubles& places, double low, double high, double step) {
   if (!(low < high && step > 0.0 && (high - low) / step <= 1e6))
-    refuse(fmt::format("low={}, high={}, step={}", low, high, step), "low is below high, and a step at least a "
-                                                                     "millionth of the way");
+    refuse(fmt::format("low={}, high={}, step={}", low, high, step),
+           "low is below high, and a step at least a "
+           "millionth of the way");
   const std::vector<glm::dvec2> all = tuples<glm::dvec2>(places, 2, "places");
   std::vector<double> found;
   {
@@ -227,12 +228,13 @@ py::array_t<float> opticalDepth(const Clouds& clouds, const Doubles& places, dou
 // Extinction at the centres of the voxels of a box, [east, north, up], and its lower corner.
 py::tuple voxels(const Clouds& clouds, double voxel, const std::vector<double>& box, py::object progress) {
   const app::Region region = regionOf(box, clouds.scene, voxel);
-  const app::VoxelBox where = app::boxOf(region, voxel, {});
+  const VoxelBox where = app::boxOf(region, voxel, {});
   const double count = static_cast<double>(where.dims.x) * where.dims.y * where.dims.z;
   if (count > kMostVoxels)
-    refuse(fmt::format("voxel={}", voxel), fmt::format("would make {:.2g} voxels; an array holds at most {:.2g}: choose "
-                                                       "larger voxels or a smaller region",
-                                                       count, kMostVoxels));
+    refuse(fmt::format("voxel={}", voxel),
+           fmt::format("would make {:.2g} voxels; an array holds at most {:.2g}: choose "
+                       "larger voxels or a smaller region",
+                       count, kMostVoxels));
   py::array_t<float> array({where.dims.x, where.dims.y, where.dims.z});
   float* to = array.mutable_data();
   Watch(std::move(progress)).run([&](const Progress& watch) {
@@ -247,8 +249,7 @@ py::tuple voxels(const Clouds& clouds, double voxel, const std::vector<double>& 
 py::list pathsOf(Sky& sky) {
   py::list paths;
   for (const Section& section : sectionsOf(sky.scene))
-    for (const Field& f : section.fields)
-      paths.append(section.path.empty() ? f.name : section.path + "." + f.name);
+    for (const Field& f : section.fields) paths.append(section.path.empty() ? f.name : section.path + "." + f.name);
   return paths;
 }
 
@@ -274,9 +275,8 @@ PYBIND11_MODULE(_welkin, module) {
   module.def("presets", &presets);
   py::class_<Sky>(module, "Sky")
       .def(py::init<>())
-      .def("_load", [](Sky& s, const std::string& sky, const std::string& folder) {
-        s.scene = app::loadSkyNamed(sky, folder);
-      })
+      .def("_load",
+           [](Sky& s, const std::string& sky, const std::string& folder) { s.scene = app::loadSkyNamed(sky, folder); })
       .def("_parse", [](Sky& s, const std::string& text, const std::string& name) { s.scene = parseSky(text, name); })
       .def("_copy", [](Sky& s, const Sky& other) { s.scene = other.scene; })
       .def("_same", [](const Sky& a, const Sky& b) { return sameScene(a.scene, b.scene); })
@@ -301,15 +301,19 @@ PYBIND11_MODULE(_welkin, module) {
              list.remove(i);
            })
       .def("_paths", &pathsOf)
-      .def("text", [](const Sky& s) { return writeSky(s.scene); }, "The sky as a sky file writes it.")
+      .def(
+          "text", [](const Sky& s) { return writeSky(s.scene); }, "The sky as a sky file writes it.")
       .def(
           "save",
-          [](const Sky& s, const std::filesystem::path& path) { writeFileAtomically(path.string(), writeSky(s.scene)); },
+          [](const Sky& s, const std::filesystem::path& path) {
+            writeFileAtomically(path.string(), writeSky(s.scene));
+          },
           py::arg("path"), "Writes a sky file.")
-      .def("render", &render, py::arg("width") = 640, py::arg("height") = 360, py::arg("frames") = 0,
-           py::arg("progress") = py::none(),
-           "The real-time renderer's picture: float32 (height, width, 3), top row first, linear Rec.709 in kcd/m^2. "
-           "`frames` temporal frames make it; 0 takes four marches a pixel. `progress(share)` may return False to stop.")
+      .def(
+          "render", &render, py::arg("width") = 640, py::arg("height") = 360, py::arg("frames") = 0,
+          py::arg("progress") = py::none(),
+          "The real-time renderer's picture: float32 (height, width, 3), top row first, linear Rec.709 in kcd/m^2. "
+          "`frames` temporal frames make it; 0 takes four marches a pixel. `progress(share)` may return False to stop.")
       .def("trace", &trace, py::arg("width") = 320, py::arg("height") = 180, py::arg("samples") = 64,
            py::arg("noise") = 0.0, py::arg("seconds") = 0.0, py::arg("denoise") = false,
            py::arg("progress") = py::none(),
@@ -319,14 +323,19 @@ PYBIND11_MODULE(_welkin, module) {
            "What a display shows of linear light (height, width, channels): uint8 sRGB through the sky's film.")
       .def("save_picture", &savePicture, py::arg("path"), py::arg("light"),
            "Writes .png (through the sky's film) or .exr (as it is).")
-      .def("bake", &bake, py::arg("path"), py::arg("voxel") = 10.0, py::arg("region") = std::vector<double>(),
-           py::arg("target") = "", py::arg("density") = "", py::arg("precision") = "half",
-           py::arg("progress") = py::none(),
-           "Writes the clouds as .vdb, .nvdb or .vol: voxels of so many m in (west, south, east, north[, bottom, top]), "
-           "as `welkin vdb` takes them. Returns the medium that the values stand for and the box.")
       .def(
-          "clouds", [](const Sky& s) { const Scene scene = s.scene; const py::gil_scoped_release others;
-            return std::make_unique<Clouds>(scene); },
+          "bake", &bake, py::arg("path"), py::arg("voxel") = 10.0, py::arg("region") = std::vector<double>(),
+          py::arg("target") = "", py::arg("density") = "", py::arg("precision") = "half",
+          py::arg("progress") = py::none(),
+          "Writes the clouds as .vdb, .nvdb or .vol: voxels of so many m in (west, south, east, north[, bottom, top]), "
+          "as `welkin vdb` takes them. Returns the medium that the values stand for and the box.")
+      .def(
+          "clouds",
+          [](const Sky& s) {
+            const Scene scene = s.scene;
+            const py::gil_scoped_release others;
+            return std::make_unique<Clouds>(scene);
+          },
           "The sky's clouds as they are now, to be asked for their density.");
   py::class_<Clouds>(module, "Clouds")
       .def("extinction", &extinction, py::arg("points"), py::arg("footprint") = 0.0f,

@@ -14,9 +14,7 @@ namespace py = pybind11;
 namespace {
 
 // Singles such as 0.1f as the shortest decimal that files write, not as the double next to them.
-double asWritten(const Field& field, double value) {
-  return std::strtod(formatValue(field, value).c_str(), nullptr);
-}
+double asWritten(const Field& field, double value) { return std::strtod(formatValue(field, value).c_str(), nullptr); }
 
 py::object boundsOf(const Field& field, const Range& range) {
   const auto bound = [&](double x) -> py::object {

@@ -1,4 +1,5 @@
-// The OSL nodes against the law: their headers read as C++ everywhere, and compiled and run where oslc and testshade are.
+// The OSL nodes against the law: their headers read as C++ everywhere, and compiled and run where oslc and testshade
+// are.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -151,12 +152,11 @@ TEST(Osl, CloudIsThatOfTheField) {
     for (int i = 0; i < 1000; ++i) {
       const glm::vec3 share(unit(random), unit(random), unit(random));
       const glm::vec3 x((share.x - 0.5f) * f.width, (share.y - 0.5f) * f.width * f.breadth, share.z * f.height);
-      const float gradient =
-          osl::welkin_gradient(share.z, hero.classic.cloudScale, f.radiiLow.x, f.radiiLow.y, f.radiiLow.z,
-                               f.radiiHigh.x, f.radiiHigh.y, f.radiiHigh.z);
-      const float found = osl::welkin_density(
-          share.x, share.y, gradient, noiseOf(hero.classic, f, x, glm::vec3(0.0f), body.params.seed),
-          hero.classic.cloudScale, hero.classic.density, hero.classic.distortion);
+      const float gradient = osl::welkin_gradient(share.z, hero.classic.cloudScale, f.radiiLow.x, f.radiiLow.y,
+                                                  f.radiiLow.z, f.radiiHigh.x, f.radiiHigh.y, f.radiiHigh.z);
+      const float found = osl::welkin_density(share.x, share.y, gradient,
+                                              noiseOf(hero.classic, f, x, glm::vec3(0.0f), body.params.seed),
+                                              hero.classic.cloudScale, hero.classic.density, hero.classic.distortion);
       // From the cloud's own axes into the world's.
       const glm::dvec3 world = body.origin + glm::dvec3(x.x * body.params.axisX - x.y * body.params.axisY,
                                                         x.x * body.params.axisY + x.y * body.params.axisX, x.z);

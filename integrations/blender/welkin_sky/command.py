@@ -27,6 +27,10 @@ def find(preferred=""):
     return path
 
 
+class Cancelled(WelkinError):
+    """The user has ended it."""
+
+
 class Job:
     """A running command; its progress is a share of 1. Ended by cancel() or by itself."""
 
@@ -78,7 +82,7 @@ class Job:
         for reader in self._readers:
             reader.join()
         if self._cancelled:
-            raise WelkinError("cancelled")
+            raise Cancelled("cancelled")
         if code != 0:
             said = [line.removeprefix("welkin: ") for line in self._said]
             raise WelkinError("; ".join(said[-2:]) if said else f"welkin ended with code {code}")

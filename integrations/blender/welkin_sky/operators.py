@@ -24,7 +24,7 @@ class _Failing:
     """Turns what the command says into Blender's message."""
 
     def fail(self, error):
-        self.report({"ERROR"}, str(error))
+        self.report({"INFO" if isinstance(error, command.Cancelled) else "ERROR"}, str(error))
         return {"CANCELLED"}
 
 
@@ -32,7 +32,7 @@ class _Work(_Failing):
     """An operator whose work is a job of the command: `start` begins it, `end` takes its output."""
 
     _job = None
-    busy = None  # the one that runs, if any
+    busy = ""  # what is at work
 
     def execute(self, context):
         try:
@@ -42,13 +42,13 @@ class _Work(_Failing):
         return {"FINISHED"}
 
     def invoke(self, context, event):
-        if _Work.busy is not None:
-            return self.fail(f"{_Work.busy.bl_label} is still at work: Esc cancels it")
+        if _Work.busy:
+            return self.fail(f"{_Work.busy} is still at work: Esc cancels it")
         try:
             self._job = self.start(context)
         except (command.WelkinError, OSError) as error:
             return self.fail(error)
-        _Work.busy = self
+        _Work.busy = self.bl_label
         self._timer = context.window_manager.event_timer_add(0.2, window=context.window)
         context.window_manager.progress_begin(0, 100)
         context.window_manager.modal_handler_add(self)
@@ -75,8 +75,13 @@ class _Work(_Failing):
             self._redraw(context)
         return {"FINISHED"}
 
+    def cancel(self, context):
+        """Blender ends it: another file is opened, or Blender closed."""
+        self._job.cancel()
+        self._leave(context)
+
     def _leave(self, context):
-        _Work.busy = None
+        _Work.busy = ""
         context.scene.welkin.progress = ""
         context.workspace.status_text_set(None)
         context.window_manager.progress_end()

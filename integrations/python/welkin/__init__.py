@@ -132,6 +132,7 @@ class SkyList:
 class Sky(_welkin.Sky):
     """A sky: every parameter by attribute (sky.sun.elevation) or by path (sky["sun.elevation"])."""
 
+    # Lists by more than one name: as many, and as their tables in files.
     _LISTS = {"layers": "layer", "sheets": "sheet", "grids": "grid", "heroes": "hero"}
 
     def __init__(self, sky=""):
@@ -147,9 +148,9 @@ class Sky(_welkin.Sky):
     def __getattr__(self, name):
         if name.startswith("_"):
             raise AttributeError(name)
-        if name in Sky._LISTS:
-            return SkyList(self, Sky._LISTS[name])
-        if any(p.startswith(name + ".") for p in self._paths()) and name not in Sky._LISTS.values():
+        if Sky._LISTS.get(name, name) in self._lists():
+            return SkyList(self, Sky._LISTS.get(name, name))
+        if any(p.startswith(name + ".") for p in self._paths()):
             return Section(self, name)
         try:
             return self[name]
@@ -160,7 +161,7 @@ class Sky(_welkin.Sky):
         self[name] = value
 
     def __dir__(self):
-        own = {p.split(".")[0] for p in self._paths()} - set(Sky._LISTS.values())
+        own = ({p.split(".")[0] for p in self._paths()} | set(self._lists())) - set(Sky._LISTS.values())
         return sorted(set(super().__dir__()) | own | set(Sky._LISTS))
 
     def __eq__(self, other):
