@@ -30,7 +30,7 @@ settings.voxel = 16
 bpy.ops.welkin.bake()
 
 scene.render.engine = "CYCLES"
-scene.cycles.samples, scene.cycles.use_denoising = 96, False
-scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 480, 270, 100
+scene.cycles.samples, scene.cycles.use_denoising = 24, False
+scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 400, 225, 100
 scene.render.filepath = picture
 bpy.ops.render.render(write_still=True)
