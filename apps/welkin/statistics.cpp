@@ -59,6 +59,7 @@ CloudColumn middleOf(const Hero& hero, const Scene& scene) {
   const HeroBody& body = field.heroes().front();
   const double bottom = body.lowest().z, step = (body.highest().z - bottom) / kHeroSteps;
   std::vector<glm::dvec3> points;
+  points.reserve(kHeroSteps);
   for (int i = 0; i < kHeroSteps; ++i)
     points.emplace_back(0.5 * glm::dvec2(body.lowest() + body.highest()), bottom + (i + 0.5) * step);
   CloudColumn column;

@@ -95,6 +95,7 @@ TEST(Hero, TheFieldIsTheLaw) {
     const HeroBody& body = field.heroes().front();
     std::mt19937 random(7);
     std::vector<glm::dvec3> points;
+    points.reserve(2000);
     for (int i = 0; i < 2000; ++i) points.push_back(randomPoint(body, random));
     const std::vector<float> found = field.extinction(points);
     double difference = 0.0, sum = 0.0;
@@ -261,6 +262,7 @@ TEST(Hero, AFootprintKeepsTheWater) {
   const DensityField field({.heroes = std::span(&hero, 1)});
   std::mt19937 random(4);
   std::vector<glm::dvec3> points;
+  points.reserve(20000);
   for (int i = 0; i < 20000; ++i) points.push_back(randomPoint(field.heroes().front(), random));
   const auto total = [&](float footprint) {
     double sum = 0.0;
