@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import threading
 
-_PERCENT = re.compile(r"(\d+)%")
+_PERCENT = re.compile(r"(\d+) %  ")  # of a line of progress
 
 
 class WelkinError(Exception):
@@ -53,9 +53,9 @@ class Job:
 
     def _listen(self):
         for line in self._process.stderr:
-            found = _PERCENT.findall(line)
-            if found and not line.startswith("welkin:"):
-                self.progress = min(int(found[-1]), 100) / 100
+            found = None if line.startswith("welkin:") else _PERCENT.search(line)
+            if found:
+                self.progress = min(int(found[1]), 100) / 100
             elif line.strip():
                 self._said.append(line.strip())
 
@@ -79,8 +79,9 @@ class Job:
     def result(self):
         """Waits for the end; what the command printed. Raises WelkinError with its message."""
         code = self._process.wait()
-        for reader in self._readers:
+        for reader, pipe in zip(self._readers, (self._process.stderr, self._process.stdout)):
             reader.join()
+            pipe.close()
         if self._cancelled:
             raise Cancelled("cancelled")
         if code != 0:
