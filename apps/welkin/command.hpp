@@ -8,16 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/welkin/presets.hpp"
+#include "apps/welkin/usage_error.hpp"
 #include "welkin/scene/scene.hpp"
 
 namespace welkin::app {
 
 enum ExitCode { kOk = 0, kFailed = 1, kUsage = 2, kBadInput = 3, kNoOpenGl = 4 };
-
-// A wrong use of the command that the parser cannot see; ends with exit code 2.
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 // The arguments by which every subcommand names and changes a sky.
 struct SkyArguments {
@@ -33,15 +30,11 @@ struct SkyArguments {
   Scene scene() const;
 };
 
-struct Preset {
-  std::string name, genus, sentence, file;
-};
-
-// The presets that came with Welkin, sorted by name; empty when their folder is not found.
-std::vector<Preset> findPresets();
-
 // $WELKIN_PRESETS, or the folder beside the program in an installation or in the source tree; empty when there is none.
 std::string presetFolder();
+
+// The presets that came with Welkin.
+std::vector<Preset> findPresets();
 
 struct Size {
   int width, height;

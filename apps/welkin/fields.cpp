@@ -19,9 +19,10 @@ const char* kindName(FieldKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::string pathOf(const Section& section, const Field& field) {
-  const std::string table = tableName(section.path);
-  return table.empty() ? field.name : table + "." + field.name;
+// "layer" of "layer.0.weather": the list that the section belongs to, or nothing.
+std::string listOf(const Section& section) {
+  const std::string first = section.path.substr(0, section.path.find('.'));
+  return section.path.size() > first.size() + 1 && std::isdigit(section.path[first.size() + 1]) ? first : "";
 }
 
 Json jsonOf(const Field& f, const Range& range) {
@@ -36,14 +37,22 @@ bool hasRange(const Field& f) {
   return f.kind == FieldKind::real || f.kind == FieldKind::integer || f.kind == FieldKind::vector;
 }
 
-void printJson(const std::vector<Section>& sections) {
+Json valueOf(const Field& f, const FieldValue& value) { return Json::parse(formatValue(f, value), nullptr, false); }
+
+// Of every parameter of a scene; with `values` also what they are there, each by its own path.
+void printJson(const std::vector<Section>& sections, bool values) {
   Json all = Json::array();
   for (const Section& section : sections)
     for (const Field& f : section.fields) {
-      Json row{{"path", pathOf(section, f)}, {"kind", kindName(f.kind)}, {"unit", f.unit.symbol}};
+      const std::string table = values ? section.path : tableName(section.path);
+      Json row{{"path", table.empty() ? f.name : table + "." + f.name}, {"kind", kindName(f.kind)}};
+      row["table"] = table;
+      row["list"] = listOf(section);
+      row["about"] = section.help;
+      row["unit"] = f.unit.symbol;
       // Defaults such as 0.1f are shown as files write them.
-      const Json text = Json::parse(formatValue(f, f.defaultValue), nullptr, false);
-      row["default"] = text;
+      row["default"] = valueOf(f, f.defaultValue);
+      if (values) row["value"] = valueOf(f, f.get(section.object));
       if (hasRange(f)) {
         row["range"] = jsonOf(f, f.hard);
         row["slider"] = jsonOf(f, f.soft);
@@ -66,8 +75,7 @@ std::string limits(const Field& f) {
 void printText(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     const std::string table = tableName(section.path);
-    const bool list =
-        table == "layer" || table == "sheet" || table == "grid" || table == "classical" || table == "hero";
+    const bool list = table == listOf(section);
     fmt::print("{}  {}\n",
                table.empty() ? "(top level)"
                : list        ? fmt::format("[[{}]]", table)
@@ -109,18 +117,21 @@ void printMarkdown(const std::vector<Section>& sections) {
 
 void addFields(CLI::App& app) {
   auto* command = app.add_subcommand("fields", "every parameter of a sky with unit, default, range and help");
+  const auto sky = std::make_shared<SkyArguments>();
+  command->add_option("sky", sky->sky, "with --json: a sky file or preset, whose values are printed too")
+      ->type_name("SKY");
   const auto json = addJsonFlag(*command);
   const auto markdown = std::make_shared<bool>(false);
   command->add_flag("--markdown", *markdown, "print tables for a page of documentation");
-  command->callback([json, markdown] {
-    Scene scene;
-    scene.sheets.emplace_back();
-    scene.grids.emplace_back();
-    scene.classical.emplace_back();
-    scene.heroes.emplace_back();
+  command->callback([sky, json, markdown] {
+    Scene scene = sky->scene();
+    const bool values = !sky->sky.empty();
+    if (values && !*json) throw UsageError("fields: the values of a sky are for programs: add --json");
+    for (const SceneList& list : listsOf(scene))
+      if (!values && list.size == 0) list.append();
     const std::vector<Section> sections = sectionsOf(scene);
     if (*json)
-      printJson(sections);
+      printJson(sections, values);
     else if (*markdown)
       printMarkdown(sections);
     else

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/welkin/command.hpp"
+#include "apps/welkin/usage_error.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/tone.hpp"
 #include "welkin/io/exr.hpp"
@@ -78,13 +78,16 @@ void requirePictureFile(const std::string& path) {
   requireWritable(path);
 }
 
+ToneSettings toneOf(const Film& film, double ev) {
+  return {.ev = static_cast<float>(ev) - film.compensation,
+          .whiteBalance = film.whiteBalance,
+          .saturation = film.saturation,
+          .curve = film.tone};
+}
+
 void savePicture(const std::string& path, const Image& light, const Film& film) {
   if (path.ends_with(".exr")) return saveExr(path, light, ExrPrecision::full);
-  const double metered = film.exposure == ExposureMode::automatic ? automaticEv(light) : film.ev;
-  const ToneSettings tone{.ev = static_cast<float>(metered) - film.compensation,
-                          .whiteBalance = film.whiteBalance,
-                          .saturation = film.saturation,
-                          .curve = film.tone};
+  const ToneSettings tone = toneOf(film, film.exposure == ExposureMode::automatic ? automaticEv(light) : film.ev);
   savePng(path, light.width, light.height, light.channels, displayBytes(light, tone), light.features);
 }
 

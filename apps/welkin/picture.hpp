@@ -32,6 +32,9 @@ bool isDisplayPicture(const std::string& path);
 // Throws UsageError unless the file ends in .png or .exr, and Error (failed) when it cannot be written.
 void requirePictureFile(const std::string& path);
 
+// How the film shows light, its exposure given.
+ToneSettings toneOf(const Film& film, double ev);
+
 // Writes .png (tone-mapped, 8 bit) or .exr (linear floats).
 void savePicture(const std::string& path, const Image& light, const Film& film);
 

@@ -1,45 +1,15 @@
 // welkin presets: the skies that come with Welkin.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "apps/welkin/command.hpp"
-#include "welkin/base/error.hpp"
-#include "welkin/io/file.hpp"
-#include "welkin/io/sky_file.hpp"
 
 namespace welkin::app {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// The comment at the head of a preset, without its marks, as one line.
-std::string headline(const std::string& text) {
-  std::string sentence;
-  for (std::size_t begin = 0; begin < text.size() && text[begin] == '#';) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::size_t word = std::min(text.find_first_not_of("# ", begin), end);
-    if (!sentence.empty() && word < end) sentence += ' ';
-    sentence += text.substr(word, end - word);
-    begin = end + 1;
-  }
-  return sentence;
-}
-
-std::string genusOf(const Scene& scene) {
-  for (const Layer& layer : scene.layers)
-    if (layer.cloud.genus != Genus::none)
-      return std::string(ChoiceNames<Genus>::names[static_cast<std::size_t>(layer.cloud.genus)]);
-  if (!scene.sheets.empty())
-    return std::string(ChoiceNames<SheetKind>::names[static_cast<std::size_t>(scene.sheets[0].kind)]);
-  return "none";
-}
-
-}  // namespace
 
 std::string presetFolder() {
   if (const char* chosen = std::getenv("WELKIN_PRESETS"); chosen && *chosen) return chosen;
@@ -50,21 +20,7 @@ std::string presetFolder() {
   return "";
 }
 
-std::vector<Preset> findPresets() {
-  const std::string folder = presetFolder();
-  std::vector<Preset> presets;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    const std::string file = entry.path().filename().string();
-    constexpr std::string_view kEnding = ".sky.toml";
-    if (!file.ends_with(kEnding)) continue;
-    const std::string path = entry.path().string(), text = readFile(path, 1 << 20);
-    presets.push_back(
-        {file.substr(0, file.size() - kEnding.size()), genusOf(parseSky(text, path)), headline(text), path});
-  }
-  std::sort(presets.begin(), presets.end(), [](const Preset& a, const Preset& b) { return a.name < b.name; });
-  return presets;
-}
+std::vector<Preset> findPresets() { return presetsIn(presetFolder()); }
 
 void addPresets(CLI::App& app) {
   auto* command = app.add_subcommand("presets", "the skies that come with Welkin");

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <filesystem>
 
 #include "apps/welkin/command.hpp"
 #include "welkin/base/error.hpp"
-#include "welkin/io/sky_file.hpp"
 #include "welkin/scene/sections.hpp"
 
 namespace welkin::app {
@@ -13,23 +11,6 @@ namespace welkin::app {
 namespace {
 
 constexpr int kMaxSide = 16384;  // of a picture
-
-Scene loadNamed(const std::string& sky) {
-  if (sky.empty()) return Scene{};
-  std::error_code ignored;
-  if (std::filesystem::exists(sky, ignored) || sky.find('/') != std::string::npos || sky.ends_with(".toml"))
-    return loadSky(sky);
-  std::vector<std::string> names;
-  for (const Preset& preset : findPresets()) {
-    if (preset.name == sky) return loadSky(preset.file);
-    names.push_back(preset.name);
-  }
-  const std::string near = nearestName(sky, names);
-  throw Error(
-      ErrorKind::badInput, sky,
-      fmt::format("is neither a file nor a preset; {}",
-                  near.empty() ? "`welkin presets` lists the presets" : fmt::format("did you mean '{}'?", near)));
-}
 
 // A wrong value on the command line is a wrong use of the command, not a bad file.
 void set(Scene& scene, const std::string& assignment) {
@@ -111,7 +92,7 @@ void SkyArguments::addPictureOptionsTo(CLI::App& command) {
 }
 
 Scene SkyArguments::scene() const {
-  Scene scene = loadNamed(sky);
+  Scene scene = loadSkyNamed(sky, presetFolder());
   if (!quality.empty()) set(scene, "quality.preset=" + quality);
   if (seed) set(scene, fmt::format("seed={}", *seed));
   if (time) set(scene, fmt::format("time={}", *time));

@@ -4,16 +4,14 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "apps/welkin/command.hpp"
 #include "apps/welkin/statistics.hpp"
-#include "apps/welkin/volume_target.hpp"
+#include "apps/welkin/volume_file.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/file.hpp"
-#include "welkin/io/mitsuba_volume.hpp"
-#include "welkin/io/nanovdb.hpp"
 #include "welkin/io/usd_volume.hpp"
-#include "welkin/io/vdb.hpp"
 
 namespace welkin::app {
 
@@ -32,6 +30,7 @@ struct VdbArguments {
   std::string region, target, up, unit, density, frames, tiles = "1x1";
   double voxel = 10.0, fps = 24.0;
   bool half = false, full = false, quiet = false;
+  std::shared_ptr<bool> json;
 };
 
 struct Frames {
@@ -120,40 +119,12 @@ Job jobOf(const VdbArguments& a) {
   job.outputs = a.outputs;
   bool read = !job.target;
   for (const std::string& output : job.outputs) {
-    const std::string suffix = std::filesystem::path(output).extension().string();
-    if (suffix != ".vdb" && suffix != ".nvdb" && suffix != ".vol")
-      throw UsageError(fmt::format("'{}': a volume's name ends in .vdb, .nvdb (NanoVDB) or .vol (Mitsuba)", output));
-    if (suffix == ".vdb" && !hasOpenVdb())
-      saveVdb(output, VoxelGrid({1, 1, 1}, {}, glm::dvec3(1.0)), {}, job.precision);
-    if (suffix == ".nvdb" && !hasNanoVdb()) saveNanoVdb(output, VoxelGrid({1, 1, 1}, {}, glm::dvec3(1.0)));
-    requireWritable(output);
-    read = read || suffix == suffixFor(*job.target);
+    requireVolumeFile(output);
+    read = read || std::filesystem::path(output).extension() == suffixFor(*job.target);
   }
   if (!read)
     throw UsageError(fmt::format("--target {} reads {} files: name one with -o", a.target, suffixFor(*job.target)));
   return job;
-}
-
-std::vector<VolumeNote> notesOf(const Job& job, double time) {
-  const VolumeMedium medium = mediumOf(job.scene, job.convention.density);
-  static constexpr const char* kMeaning[] = {"normalized extinction", "extinction in 1/m", "liquid water in g/m^3"};
-  std::vector<VolumeNote> notes{{"sky", job.sky},
-                                {"seed", std::int64_t{job.scene.seed}},
-                                {"time", time},
-                                {"up_axis", std::string(job.convention.up == VolumeUp::z ? "z" : "y")},
-                                {"units", std::string(job.convention.unit == VolumeUnit::m ? "m" : "cm")},
-                                {"density_semantics", std::string(kMeaning[static_cast<int>(job.convention.density)])},
-                                {"extinction_per_metre_at_1", medium.extinction},
-                                {"scattering_albedo", medium.albedo},
-                                {"asymmetry_g", medium.asymmetry}};
-  if (!job.scene.title.empty()) notes.push_back({"title", job.scene.title});
-  return notes;
-}
-
-void save(const std::string& path, const VoxelGrid& grid, const Job& job, double time) {
-  if (path.ends_with(".vdb")) return saveVdb(path, grid, notesOf(job, time), job.precision);
-  if (path.ends_with(".nvdb")) return saveNanoVdb(path, grid);
-  saveMitsubaVolume(path, grid);
 }
 
 std::string sizeText(double bytes) {
@@ -162,8 +133,8 @@ std::string sizeText(double bytes) {
                        : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
-// Size and time before anything is done. Throws when a file would not fit.
-void announce(const Job& job, const VolumeEstimate& estimate) {
+// Size and time before anything is done, unless programs read what is printed. Throws when a file would not fit.
+void announce(const Job& job, const VolumeEstimate& estimate, bool json) {
   const glm::dvec3 size = (job.region.high - job.region.low) / job.voxel;
   const int frames = job.frames.last - job.frames.first + 1;
   const double files = static_cast<double>(job.tiles.size());
@@ -174,16 +145,18 @@ void announce(const Job& job, const VolumeEstimate& estimate) {
              : output.ends_with(".nvdb") ? kNanoVdbBase * files + kNanoVdbBrick * estimate.activeBricks
                                          : kVdbBase * files + perVoxel * estimate.activeVoxels;
   const double all = files * frames * static_cast<double>(job.outputs.size());
-  fmt::print(
+  std::string text = fmt::format(
       "{:.0f} x {:.0f} x {:.0f} voxels of {:g} m, {:g} m east to {:g} m, {:g} m north to {:g} m, {:g} to {:g} m high\n",
       size.x, size.y, size.z, job.voxel, job.region.low.x, job.region.high.x, job.region.low.y, job.region.high.y,
       job.region.low.z, job.region.high.z);
-  fmt::print("about {:.2g} million active voxels ({:.0f} %){}, {} in {} file{}, {:.0f} s\n",
-             estimate.activeVoxels / 1e6, 100.0 * estimate.activeVoxels / estimate.voxels, frames > 1 ? " a frame" : "",
-             sizeText(bytes * frames), all, all > 1 ? "s" : "", std::ceil(estimate.seconds * frames));
+  text += fmt::format("about {:.2g} million active voxels ({:.0f} %){}, {} in {} file{}, {:.0f} s\n",
+                      estimate.activeVoxels / 1e6, 100.0 * estimate.activeVoxels / estimate.voxels,
+                      frames > 1 ? " a frame" : "", sizeText(bytes * frames), all, all > 1 ? "s" : "",
+                      std::ceil(estimate.seconds * frames));
   if (!job.scene.sheets.empty())
-    fmt::print("note: {} thin high sheet{} left out; a sheet has no thickness\n", job.scene.sheets.size(),
-               job.scene.sheets.size() == 1 ? " is" : "s are");
+    text += fmt::format("note: {} thin high sheet{} left out; a sheet has no thickness\n", job.scene.sheets.size(),
+                        job.scene.sheets.size() == 1 ? " is" : "s are");
+  if (!json) fmt::print("{}", text);
   std::fflush(stdout);
   if (all > kMostFiles) throw UsageError(fmt::format("that makes more than {} files", kMostFiles));
   const double memory = kBytesPerBrick * estimate.activeBricks / files;
@@ -213,15 +186,32 @@ void writeStage(const Job& job, const std::string& output) {
   writeFileAtomically(std::filesystem::path(output).replace_extension(".usda").string(), usdStage(stage, volumes));
 }
 
+// What was written and which numbers to enter in the other program.
+nlohmann::ordered_json summary(const Job& job, const std::vector<std::string>& files, double empty) {
+  const VolumeMedium medium = mediumOf(job.scene, job.convention.density);
+  const VoxelBox box = boxOf(job.region, job.voxel, job.convention);
+  const glm::dvec3 high = box.origin + glm::dvec3(box.dims) * box.voxel;
+  return {{"files", files},
+          {"density", medium.extinction / unitsPerMetre(job.convention.unit)},
+          {"albedo", medium.albedo},
+          {"asymmetry", medium.asymmetry},
+          {"low", {box.origin.x, box.origin.y, box.origin.z}},
+          {"high", {high.x, high.y, high.z}},
+          {"voxel", box.voxel.x},
+          {"empty", empty},
+          {"sheets_left_out", job.scene.sheets.size()}};
+}
+
 void write(const VdbArguments& arguments) {
   const Job job = jobOf(arguments);
   DensityField field = densityField(job.scene);
-  announce(job, estimateOf(field, job.region, job.voxel));
+  announce(job, estimateOf(field, job.region, job.voxel), *arguments.json);
   const VoxelBaking baking = bakingOf(job.convention, extinctionAtOne(job.scene, job.convention.density));
   ProgressDisplay display("baking", arguments.quiet ? ProgressStyle::quiet : ProgressStyle::automatic);
   const Progress progress = display.callback();
   const double steps = static_cast<double>(job.tiles.size()) * (job.frames.last - job.frames.first + 1);
   double done = 0.0, written = 0.0, empty = 0.0;
+  std::vector<std::string> files;
   for (int frame = job.frames.first; frame <= job.frames.last; ++frame) {
     const double time = job.scene.time + (job.frames.sequence ? frame / job.fps : 0.0);
     field.setDrift({job.scene.wind.speed, job.scene.wind.from, time});
@@ -231,14 +221,19 @@ void write(const VdbArguments& arguments) {
       empty += grid.maximum() == 0.0f;
       for (const std::string& output : job.outputs) {
         const std::string path = nameOf(output, job, tile, frame);
-        save(path, grid, job, time);
+        saveVolume(path, grid, volumeNotes(job.scene, job.sky, job.convention, time), job.precision);
         written += static_cast<double>(std::filesystem::file_size(path));
+        files.push_back(path);
       }
       report(progress, (done + 1.0) / steps);
     }
   }
   for (const std::string& output : job.outputs)
     if (output.ends_with(".vdb")) writeStage(job, output);
+  if (*arguments.json) {
+    fmt::print("{}\n", summary(job, files, empty).dump(2));
+    return;
+  }
   fmt::print("wrote {}\n", sizeText(written));
   if (empty > 0.0) fmt::print("note: there is no cloud in {} of {} boxes; --region chooses others\n", empty, steps);
   const auto shown = std::find_if(job.outputs.begin(), job.outputs.end(), [&](const std::string& o) {
@@ -295,6 +290,7 @@ void addVdb(CLI::App& app) {
   command->add_option("--tiles", a->tiles, "many files where one would not fit: from west to east x south to north")
       ->type_name("NxM")
       ->capture_default_str();
+  a->json = addJsonFlag(*command);
   command->add_flag("-q,--quiet", a->quiet, "no progress");
   command->callback([a] { write(*a); });
 }

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "apps/welkin/command.hpp"
+#include "apps/welkin/usage_error.hpp"
 #include "welkin/base/error.hpp"
 
 namespace welkin::app {

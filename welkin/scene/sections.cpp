@@ -24,6 +24,12 @@ Section section(std::string path, const char* help, T& object) {
   return {std::move(path), help, fieldsOf<T>(), &object};
 }
 
+template <class T>
+SceneList list(const char* name, std::vector<T>& items, std::size_t most) {
+  return {name, items.size(), most, [&items] { items.emplace_back(); },
+          [&items](std::size_t i) { items.erase(items.begin() + static_cast<std::ptrdiff_t>(i)); }};
+}
+
 }  // namespace
 
 std::vector<Section> sectionsOf(Scene& scene) {
@@ -91,6 +97,12 @@ std::string tableName(std::string_view path) {
     begin = end + 1;
   }
   return name;
+}
+
+std::vector<SceneList> listsOf(Scene& scene) {
+  return {list("layer", scene.layers, kMaxLayers), list("sheet", scene.sheets, kMaxSheets),
+          list("grid", scene.grids, kMaxGrids), list("classical", scene.classical, kMaxClassical),
+          list("hero", scene.heroes, kMaxHeroes)};
 }
 
 const Field* findField(const Section& section, std::string_view name) {

@@ -1,5 +1,6 @@
 #pragma once
 // The one generic view of a Scene: the sky file, --set, `welkin fields`, the docs and the random-scene tests read it.
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,28 @@ std::string tableName(std::string_view path);
 
 // The field called `name`, or null.
 const Field* findField(const Section& section, std::string_view name);
+
+// A parameter by its whole path, in sections of which it is part; both null when there is none.
+struct Parameter {
+  const Section* section = nullptr;
+  const Field* field = nullptr;
+};
+Parameter findParameter(std::span<const Section> sections, std::string_view path);
+
+// "layer.0.weather.coverage" for "layer.weather.coverage": a list without a number means its first element.
+std::string withListNumber(std::string_view path);
+
+// What to say of a path that names no parameter: the nearest one, or how long the list is.
+std::string unknownParameter(const Scene& scene, std::span<const Section> sections, std::string_view path);
+
+// A list of a scene, by the name that its tables have in files.
+struct SceneList {
+  std::string name;
+  std::size_t size, most;
+  std::function<void()> append;             // an element of defaults
+  std::function<void(std::size_t)> remove;  // one that there is
+};
+std::vector<SceneList> listsOf(Scene& scene);
 
 // Sets one parameter after checking it, and what hangs on it: quality.preset sets the whole table, a
 // hero's species all of its tables. Returns what is
