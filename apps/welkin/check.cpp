@@ -11,13 +11,14 @@ void addCheck(CLI::App& app) {
   auto arguments = std::make_shared<SkyArguments>();
   arguments->addTo(*command, SkyArguments::Need::required);
   command->callback([arguments] {
-    const Scene scene = arguments->scene();
+    const Scene scene = arguments->animated();
     const auto counted = [](std::size_t n, const char* what) {
       return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
-    fmt::print("{}: a sky of {} and {}{}\n", arguments->sky, counted(scene.layers.size(), "layer"),
+    fmt::print("{}: a sky of {} and {}{}{}\n", arguments->sky, counted(scene.layers.size(), "layer"),
                counted(scene.sheets.size(), "sheet"),
-               scene.grids.empty() ? "" : " and " + counted(loadGrids(scene).size(), "grid"));
+               scene.grids.empty() ? "" : " and " + counted(loadGrids(scene).size(), "grid"),
+               scene.keyframes.empty() ? "" : " with " + counted(scene.keyframes.size(), "keyframe"));
   });
 }
 

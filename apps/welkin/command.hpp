@@ -30,7 +30,9 @@ struct SkyArguments {
   enum class Need { optional, required };
   void addTo(CLI::App& command, Need need);
   void addPictureOptionsTo(CLI::App& command);
+  // The sky as it is at its time, and as its file has it, with its keyframes. What the command line sets has none.
   Scene scene() const;
+  Scene animated() const;
 };
 
 struct Preset {
@@ -63,6 +65,7 @@ void addInfo(CLI::App& app);
 void addNoise(CLI::App& app);
 void addWeather(CLI::App& app);
 void addVdb(CLI::App& app);
+void addVideo(CLI::App& app);
 void addFlux(CLI::App& app);
 void addValidate(CLI::App& app);
 void addDoctor(CLI::App& app);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/welkin/command.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/tone.hpp"
@@ -45,12 +47,19 @@ std::vector<Volume> weatherMaps(const Scene& scene) {
   return maps;
 }
 
+realtime::CustomTextures texturesOf(const Scene& scene) {
+  realtime::CustomTextures textures;
+  // Without pictures the renderer keeps the weather that it has.
+  const bool pictures = std::any_of(scene.layers.begin(), scene.layers.end(),
+                                    [](const Layer& layer) { return !layer.weather.map.empty(); });
+  if (pictures) textures.weatherMaps = weatherMaps(scene);
+  textures.grids = loadGrids(scene);
+  return textures;
+}
+
 Image renderSky(const Scene& scene, const RenderOptions& options) {
   realtime::Offscreen screen(options.width, options.height);
-  realtime::CustomTextures textures;
-  textures.weatherMaps = weatherMaps(scene);
-  textures.grids = loadGrids(scene);
-  screen.renderer().setScene(scene, textures);
+  screen.renderer().setScene(scene, texturesOf(scene));
   const int interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
   const int frames = options.frames > 0 ? options.frames : kSamplesPerPixel * interleave * interleave;
   for (int i = 0; i < frames; ++i) {
@@ -78,13 +87,16 @@ void requirePictureFile(const std::string& path) {
   requireWritable(path);
 }
 
+ToneSettings toneOf(const Film& film, double ev) {
+  return {.ev = static_cast<float>(ev) - film.compensation,
+          .whiteBalance = film.whiteBalance,
+          .saturation = film.saturation,
+          .curve = film.tone};
+}
+
 void savePicture(const std::string& path, const Image& light, const Film& film) {
   if (path.ends_with(".exr")) return saveExr(path, light, ExrPrecision::full);
-  const double metered = film.exposure == ExposureMode::automatic ? automaticEv(light) : film.ev;
-  const ToneSettings tone{.ev = static_cast<float>(metered) - film.compensation,
-                          .whiteBalance = film.whiteBalance,
-                          .saturation = film.saturation,
-                          .curve = film.tone};
+  const ToneSettings tone = toneOf(film, film.exposure == ExposureMode::automatic ? automaticEv(light) : film.ev);
   savePng(path, light.width, light.height, light.channels, displayBytes(light, tone), light.features);
 }
 

@@ -6,6 +6,7 @@
 #include "welkin/base/image.hpp"
 #include "welkin/base/progress.hpp"
 #include "welkin/noise/volume.hpp"
+#include "welkin/realtime/renderer.hpp"
 #include "welkin/scene/scene.hpp"
 
 namespace welkin::app {
@@ -20,6 +21,9 @@ struct RenderOptions {
 // (badInput) for a picture that cannot be read.
 std::vector<Volume> weatherMaps(const Scene& scene);
 
+// What the scene names in files, for the real-time renderer. Throws Error (badInput) for what cannot be read.
+realtime::CustomTextures texturesOf(const Scene& scene);
+
 // The sky through its camera by the real-time renderer: linear RGB in kcd/m^2. Throws Error (noOpenGl).
 Image renderSky(const Scene& scene, const RenderOptions& options);
 
@@ -31,6 +35,9 @@ bool isDisplayPicture(const std::string& path);
 
 // Throws UsageError unless the file ends in .png or .exr, and Error (failed) when it cannot be written.
 void requirePictureFile(const std::string& path);
+
+// How the film shows light, its exposure given.
+ToneSettings toneOf(const Film& film, double ev);
 
 // Writes .png (tone-mapped, 8 bit) or .exr (linear floats).
 void savePicture(const std::string& path, const Image& light, const Film& film);

@@ -6,6 +6,7 @@
 #include "apps/welkin/command.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/sky_file.hpp"
+#include "welkin/scene/animation.hpp"
 #include "welkin/scene/sections.hpp"
 
 namespace welkin::app {
@@ -34,7 +35,7 @@ Scene loadNamed(const std::string& sky) {
 // A wrong value on the command line is a wrong use of the command, not a bad file.
 void set(Scene& scene, const std::string& assignment) {
   try {
-    setField(scene, assignment);
+    dropKeyframes(scene, setField(scene, assignment));
   } catch (const Error& e) {
     throw UsageError(e.what());
   }
@@ -96,7 +97,7 @@ void SkyArguments::addTo(CLI::App& command, Need need) {
       ->take_all()
       ->allow_extra_args(false);  // one value each: what follows may be the sky
   command.add_option("--seed", seed, "another seed, another sky")->type_name("N");
-  command.add_option("--time", time, "seconds that wind and growth have been at work")->type_name("T");
+  command.add_option("--time", time, "seconds that wind and growth have been at work; keyframes stand on this clock")->type_name("T");
 }
 
 void SkyArguments::addPictureOptionsTo(CLI::App& command) {
@@ -111,6 +112,11 @@ void SkyArguments::addPictureOptionsTo(CLI::App& command) {
 }
 
 Scene SkyArguments::scene() const {
+  const Scene all = animated();
+  return sceneAt(all, all.time);
+}
+
+Scene SkyArguments::animated() const {
   Scene scene = loadNamed(sky);
   if (!quality.empty()) set(scene, "quality.preset=" + quality);
   if (seed) set(scene, fmt::format("seed={}", *seed));

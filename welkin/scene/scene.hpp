@@ -11,6 +11,7 @@
 #include "welkin/density/layer.hpp"
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/light/settings.hpp"
+#include "welkin/scene/keyframe.hpp"
 #include "welkin/scene/quality.hpp"
 
 namespace welkin {
@@ -117,7 +118,7 @@ struct FieldTable<Film> {
   }
 };
 
-inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4, kMaxGrids = 4;
+inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4, kMaxGrids = 4, kMaxKeyframes = 4096;
 
 struct Scene {
   std::string title;
@@ -138,6 +139,7 @@ struct Scene {
   Film film;
   Quality quality;
   NoiseSettings noise;
+  std::vector<Keyframe> keyframes;  // scene/animation.hpp; renderers draw the values above
 };
 
 }  // namespace welkin

@@ -122,7 +122,7 @@ bool sameScene(const Scene& a, const Scene& b) {
     for (const Field& f : left[i].fields)
       if (f.get(left[i].object) != f.get(right[i].object)) return false;
   }
-  return true;
+  return a.keyframes == b.keyframes;
 }
 
 }  // namespace welkin

@@ -26,18 +26,31 @@ std::string tableName(std::string_view path);
 // The field called `name`, or null.
 const Field* findField(const Section& section, std::string_view name);
 
+// A parameter by its whole path, in sections of which it is part; both null when there is none.
+struct Parameter {
+  const Section* section = nullptr;
+  const Field* field = nullptr;
+};
+Parameter findParameter(std::span<const Section> sections, std::string_view path);
+
+// "layer.0.weather.coverage" for "layer.weather.coverage": a list without a number means its first element.
+std::string withListNumber(std::string_view path);
+
+// What to say of a path that names no parameter: the nearest one, or how long the list is.
+std::string unknownParameter(const Scene& scene, std::span<const Section> sections, std::string_view path);
+
 // Sets one parameter after checking it, and what hangs on it: quality.preset sets the whole table. Returns what is
 // wrong with the value, without the field's name, or an empty text.
 std::string assign(Scene& scene, const Section& section, const Field& field, FieldValue value);
 
 // Sets one parameter from text such as "layer.0.weather.coverage=0.5" or "camera.position=0,0,1500"; a list without a
-// number means its first element. Throws Error (badInput).
-void setField(Scene& scene, std::string_view assignment);
+// number means its first element. Returns the parameter's path. Throws Error (badInput).
+std::string setField(Scene& scene, std::string_view assignment);
 
 // A value as --set and the sky file write it, shortest text that gives the same bits; texts stand in quotes.
 std::string formatValue(const Field& field, const FieldValue& value);
 
-// True when the two have the same layers, sheets and grids and every parameter is the same.
+// True when the two have the same layers, sheets, grids and keyframes and every parameter is the same.
 bool sameScene(const Scene& a, const Scene& b);
 
 }  // namespace welkin

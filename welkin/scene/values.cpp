@@ -106,14 +106,6 @@ std::string shortest(const Field& field, double value) {
   return withPoint(fmt::format("{:.17g}", value));
 }
 
-// "layer.weather.coverage" -> "layer.0.weather.coverage"
-std::string withIndex(std::string_view path) {
-  for (const std::string_view list : {"layer.", "sheet.", "grid."})
-    if (path.starts_with(list) && path.size() > list.size() && (path[list.size()] < '0' || path[list.size()] > '9'))
-      return fmt::format("{}0.{}", list, path.substr(list.size()));
-  return std::string(path);
-}
-
 }  // namespace
 
 std::string formatValue(const Field& field, const FieldValue& value) {
@@ -125,36 +117,50 @@ std::string formatValue(const Field& field, const FieldValue& value) {
   return fmt::format("[{}, {}, {}]", shortest(field, v[0]), shortest(field, v[1]), shortest(field, v[2]));
 }
 
-void setField(Scene& scene, std::string_view assignment) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string_view::npos) refuse(assignment, "write it as key=value, for example sun.elevation=20");
-  const std::string path = withIndex(trimmed(assignment.substr(0, equals)));
-  const std::string_view text = trimmed(assignment.substr(equals + 1));
+Parameter findParameter(std::span<const Section> sections, std::string_view path) {
   const std::size_t dot = path.rfind('.');
-  const std::string table = dot == std::string::npos ? "" : path.substr(0, dot);
-  const std::string name = path.substr(dot == std::string::npos ? 0 : dot + 1);
+  const std::string_view table = dot == std::string_view::npos ? std::string_view() : path.substr(0, dot);
+  const std::string_view name = path.substr(dot == std::string_view::npos ? 0 : dot + 1);
+  for (const Section& s : sections)
+    if (const Field* f = s.path == table ? findField(s, name) : nullptr) return {&s, f};
+  return {};
+}
 
-  const std::vector<Section> sections = sectionsOf(scene);
-  std::vector<std::string> known;
-  for (const Section& s : sections) {
-    const Field* f = s.path == table ? findField(s, name) : nullptr;
-    if (f) {
-      const std::string wrong = assign(scene, s, *f, valueFromText(*f, text));
-      if (!wrong.empty()) refuse(assignment, fmt::format("{} {}", path, wrong));
-      return;
-    }
-    for (const Field& other : s.fields) known.push_back(s.path.empty() ? other.name : s.path + "." + other.name);
-  }
+std::string withListNumber(std::string_view path) {
+  for (const std::string_view list : {"layer.", "sheet.", "grid."})
+    if (path.starts_with(list) && path.size() > list.size() && (path[list.size()] < '0' || path[list.size()] > '9'))
+      return fmt::format("{}0.{}", list, path.substr(list.size()));
+  return std::string(path);
+}
+
+std::string unknownParameter(const Scene& scene, std::span<const Section> sections, std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  const std::string_view table = dot == std::string_view::npos ? std::string_view() : path.substr(0, dot);
   for (const auto& [list, size] : {std::pair("layer", scene.layers.size()), std::pair("sheet", scene.sheets.size()),
                                    std::pair("grid", scene.grids.size())})
-    if (table.starts_with(fmt::format("{}.", list)) &&
-        std::none_of(sections.begin(), sections.end(),
-                     [&](const Section& s) { return table == s.path || table.starts_with(s.path + "."); }))
-      refuse(assignment, fmt::format("the sky has {} [[{}]]; they are counted from 0", size, list));
+    if (table.starts_with(fmt::format("{}.", list)) && std::none_of(sections.begin(), sections.end(), [&](auto& s) {
+          return table == s.path || table.starts_with(s.path + ".");
+        }))
+      return fmt::format("the sky has {} [[{}]]; they are counted from 0", size, list);
+  std::vector<std::string> known;
+  for (const Section& s : sections)
+    for (const Field& f : s.fields) known.push_back(s.path.empty() ? f.name : s.path + "." + f.name);
   const std::string near = nearestName(path, known);
-  refuse(assignment,
-         fmt::format("'{}' is not a parameter{}", path,
-                     near.empty() ? "; `welkin fields` lists them" : fmt::format("; did you mean '{}'?", near)));
+  return fmt::format("'{}' is not a parameter{}", path,
+                     near.empty() ? "; `welkin fields` lists them" : fmt::format("; did you mean '{}'?", near));
+}
+
+std::string setField(Scene& scene, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos) refuse(assignment, "write it as key=value, for example sun.elevation=20");
+  const std::string path = withListNumber(trimmed(assignment.substr(0, equals)));
+  const std::string_view text = trimmed(assignment.substr(equals + 1));
+  const std::vector<Section> sections = sectionsOf(scene);
+  const Parameter p = findParameter(sections, path);
+  if (!p.field) refuse(assignment, unknownParameter(scene, sections, path));
+  const std::string wrong = assign(scene, *p.section, *p.field, valueFromText(*p.field, text));
+  if (!wrong.empty()) refuse(assignment, fmt::format("{} {}", path, wrong));
+  return path;
 }
 
 }  // namespace welkin
