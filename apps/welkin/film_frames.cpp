@@ -19,7 +19,7 @@ namespace welkin::app {
 
 namespace {
 
-constexpr int kStretch = 48;  // frames that depend on each other
+constexpr int kStretch = 48;    // frames that depend on each other
 constexpr int kWarmRounds = 2;  // of the interleave, drawn before a stretch begins
 constexpr int kUsualDraws = 4;
 constexpr int kMeterWidth = 64, kMeterHeight = 36, kMeterSamples = 8;
@@ -89,9 +89,10 @@ void save(const Image& light, const Film& film, double ev, SampleDepth depth, co
 }
 
 // Small pictures of moments, coarse but for their light.
-ExposureCurve meterDrawn(const Shot& shot) {
+ExposureCurve meterDrawn(const Shot& shot, const Progress& progress) {
   std::optional<Stage> stage;
   return ExposureCurve(shot, [&](int frame) {
+    report(progress, 0.0);
     if (!stage) stage.emplace(kMeterWidth, kMeterHeight);
     Scene scene = sceneOf(shot, frame);
     scene.quality = qualityPreset(QualityPreset::medium);
@@ -146,7 +147,7 @@ void drawFrames(const Shot& shot, const FrameOptions& options, FrameFolder& fold
     all += static_cast<double>(span.end - span.begin + warmUp) * draws;
   }
   if (stretches.empty()) return;
-  const ExposureCurve exposure = meterDrawn(shot);
+  const ExposureCurve exposure = meterDrawn(shot, options.progress);
   for (const Span& span : stretches) {
     Stage stage(options.width, options.height);  // one that knows nothing of what was drawn before
     for (int frame = span.begin - warmUp; frame < span.end; ++frame) {
@@ -167,8 +168,13 @@ void drawFrames(const Shot& shot, const FrameOptions& options, FrameFolder& fold
 void traceFrames(const Shot& shot, const FrameOptions& options, const TraceOptions& trace, FrameFolder& folder) {
   const int missing = folder.missing();
   if (missing == 0) return;
-  TraceOptions meter{.width = kMeterWidth, .height = kMeterHeight, .samples = kMeterSamples, .air = "tables"};
-  const ExposureCurve exposure(shot, [&](int frame) { return traced(shot.at(frame), 0, meter, {}); });
+  TraceOptions meter;
+  meter.width = kMeterWidth;
+  meter.height = kMeterHeight;
+  meter.samples = kMeterSamples;
+  meter.air = "tables";
+  const ExposureCurve exposure(
+      shot, [&](int frame) { return traced(shot.at(frame), 0, meter, stageOf(options.progress, 0.0, 0.0)); });
   TraceOptions full = trace;
   full.width = options.width;
   full.height = options.height;

@@ -13,7 +13,7 @@ struct FrameOptions {
   int width = 1280, height = 720;
   int draws = 0;  // of the real-time renderer for one frame; 0: as many as the path needs
   SampleDepth depth = SampleDepth::bits8;
-  Progress progress;  // over what is missing
+  Progress progress{};  // over what is missing
 };
 
 // How often a frame is drawn: where time races past, until every pixel is of this moment; else the history helps.

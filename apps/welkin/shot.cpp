@@ -70,9 +70,9 @@ void followFile(Shot& shot, const std::string& path) {
 }
 
 std::string identityOf(const Shot& shot) {
-  std::string text = fmt::format("path {} frames {} fps {} time-scale {} orbit {} airspeed {}\n{}",
-                                 static_cast<int>(shot.path), shot.frames, shot.framesPerSecond, shot.timeScale,
-                                 shot.orbit, shot.airspeed, writeSky(shot.scene));
+  std::string text =
+      fmt::format("path {} frames {} fps {} time-scale {} orbit {} airspeed {}\n{}", static_cast<int>(shot.path),
+                  shot.frames, shot.framesPerSecond, shot.timeScale, shot.orbit, shot.airspeed, writeSky(shot.scene));
   for (const Layer& layer : shot.scene.layers) text += fileIdentity(layer.weather.map);
   for (const GridCloud& grid : shot.scene.grids) text += fileIdentity(grid.file);
   return text;

@@ -97,7 +97,8 @@ void SkyArguments::addTo(CLI::App& command, Need need) {
       ->take_all()
       ->allow_extra_args(false);  // one value each: what follows may be the sky
   command.add_option("--seed", seed, "another seed, another sky")->type_name("N");
-  command.add_option("--time", time, "seconds that wind and growth have been at work; keyframes stand on this clock")->type_name("T");
+  command.add_option("--time", time, "seconds that wind and growth have been at work; keyframes stand on this clock")
+      ->type_name("T");
 }
 
 void SkyArguments::addPictureOptionsTo(CLI::App& command) {

@@ -104,8 +104,7 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
       ->check(CLI::IsMember({"realtime", "path"}))
       ->type_name("NAME");
   const CLI::Option* flags[] = {
-      command
-          .add_option("--samples", options.samples, "path: paths of a pixel; 64 unless something else decides")
+      command.add_option("--samples", options.samples, "path: paths of a pixel; 64 unless something else decides")
           ->type_name("N")
           ->check(CLI::Range(1, 1 << 20)),
       command

@@ -1,6 +1,7 @@
 // welkin video: a film of a sky.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -48,9 +49,10 @@ VideoFormat formatOf(const VideoArguments& a) {
   for (const Pair& pair : kPairs)
     if (ending == pair.ending && (a.preset.empty() || a.preset == pair.preset)) return pair.format;
   if (a.preset.empty()) throw UsageError(fmt::format("'{}': a film's name ends in .mp4, .mov or .gif", a.output));
-  throw UsageError(fmt::format("--preset {}: '{}' has another ending; h264 goes into .mp4 or .mov, prores into .mov, "
-                               "gif into .gif",
-                               a.preset, a.output));
+  throw UsageError(
+      fmt::format("--preset {}: '{}' has another ending; h264 goes into .mp4 or .mov, prores into .mov, "
+                  "gif into .gif",
+                  a.preset, a.output));
 }
 
 Size sizeOf(const VideoArguments& a, VideoFormat format) {
@@ -72,8 +74,7 @@ Shot shotOf(const VideoArguments& a) {
   Shot shot{.scene = a.sky.animated(), .framesPerSecond = a.fps, .orbit = a.orbit, .airspeed = a.airspeed};
   const auto* const named = std::find(kPaths.begin(), kPaths.end(), a.path);
   if (named != kPaths.end()) shot.path = static_cast<ShotPath>(1 + (named - kPaths.begin()));
-  if (a.airspeedFlag->count() > 0 && shot.path != ShotPath::flight)
-    throw UsageError("--airspeed is for --path flight");
+  if (a.airspeedFlag->count() > 0 && shot.path != ShotPath::flight) throw UsageError("--airspeed is for --path flight");
   if (a.orbitFlag->count() > 0 && shot.path != ShotPath::turntable) throw UsageError("--orbit is for --path turntable");
   shot.timeScale = a.timeScale.value_or(shot.path == ShotPath::timelapse ? kTimelapseScale : 1.0);
   std::error_code ignored;
@@ -84,7 +85,8 @@ Shot shotOf(const VideoArguments& a) {
   }
   const double seconds = a.seconds.value_or(lengthOf(shot)), frames = std::round(seconds * a.fps);
   if (frames > kMostFrames)
-    throw UsageError(fmt::format("{:g} s at {:g} frames a second are more than {} frames", seconds, a.fps, kMostFrames));
+    throw UsageError(
+        fmt::format("{:g} s at {:g} frames a second are more than {} frames", seconds, a.fps, kMostFrames));
   if (shot.scene.time + shot.timeScale * seconds > kLatest)
     throw UsageError(fmt::format("the film would end {:g} s after the sky's beginning; {:g} s are the most",
                                  shot.scene.time + shot.timeScale * seconds, kLatest));
@@ -166,9 +168,11 @@ void addVideo(CLI::App& app) {
   command->add_option("--seconds", a.seconds, "length of the film; to its last keyframe if not given, or 10 s")
       ->type_name("S")
       ->check(CLI::Range(0.0, 1e6));
-  command->add_option("--fps", a.fps, "frames a second")->type_name("N")->check(CLI::Range(0.1, 240.0))->capture_default_str();
-  command
-      ->add_option("--time-scale", a.timeScale, "seconds of the sky to one of the film; 1, and 300 for timelapse")
+  command->add_option("--fps", a.fps, "frames a second")
+      ->type_name("N")
+      ->check(CLI::Range(0.1, 240.0))
+      ->capture_default_str();
+  command->add_option("--time-scale", a.timeScale, "seconds of the sky to one of the film; 1, and 300 for timelapse")
       ->type_name("X")
       ->check(CLI::Range(0.0, 1e5));
   a.airspeedFlag = command->add_option("--airspeed", a.airspeed, "flight: m/s")
@@ -182,8 +186,7 @@ void addVideo(CLI::App& app) {
                     ->type_name("M")
                     ->check(CLI::Range(1.0, 1e6));
   command->add_option("--size", a.size, "width and height in pixels")->type_name("WxH")->capture_default_str();
-  command
-      ->add_option("--preset", a.preset, "h264, prores or gif; the film's name says it as well")
+  command->add_option("--preset", a.preset, "h264, prores or gif; the film's name says it as well")
       ->check(CLI::IsMember({"h264", "prores", "gif"}))
       ->type_name("NAME");
   command

@@ -54,7 +54,8 @@ TEST_F(VideoCommand, RenderShowsTheSameSkyAtATime) {
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(test::listing(path("f")), "film.txt frame_000000.png frame_000001.png frame_000002.png frame_000003.png ");
   const auto render = [&](const std::string& options) {
-    EXPECT_EQ(test::run("render " + path("clear.sky.toml") + " -q --size 32x18 -o " + path("r.png") + " " + options).code, 0);
+    EXPECT_EQ(
+        test::run("render " + path("clear.sky.toml") + " -q --size 32x18 -o " + path("r.png") + " " + options).code, 0);
     return loadPng(path("r.png"));
   };
   EXPECT_GT(psnr(render("--time 1.5"), frame("f", 3)), 35.0);
@@ -68,10 +69,10 @@ TEST_F(VideoCommand, GoesOnAfterAKill) {
   sky(kSunset);
   const std::string options = "--fps 40 --seconds 2 --set film.exposure=automatic";  // two stretches
   const std::string frames = path("cut.mp4") + ".frames";
-  // Killed when the film has a frame of the second stretch, or at the latest after a minute.
+  // Killed when the film has a frame of the second stretch, or at the latest after three minutes.
   const std::string line = std::string("sh -c '\"") + WELKIN_BINARY_DIR + "/bin/welkin\" video " +
                            path("clear.sky.toml") + " -q --size 32x18 -o " + path("cut.mp4") + " " + options +
-                           " & p=$!; ( i=0; while [ ! -e " + frames + "/frame_000055.png ] && [ $i -lt 1200 ]; do " +
+                           " & p=$!; ( i=0; while [ ! -e " + frames + "/frame_000055.png ] && [ $i -lt 3600 ]; do " +
                            "sleep 0.05; i=$((i+1)); done; kill -9 $p ) & wait $p' >/dev/null 2>&1";
   [[maybe_unused]] const int ignored = std::system(line.c_str());
   ASSERT_TRUE(fs::exists(frames + "/frame_000055.png"));
@@ -128,7 +129,10 @@ TEST_F(VideoCommand, PathsMoveTheCamera) {
   ASSERT_EQ(video("a.gif", "--path timelapse --seconds 1 --fps 2 --time-scale 43200 --frames " + path("f")).code, 0);
   EXPECT_NE(brightness(0), brightness(1));
   fs::remove_all(path("f"));
-  ASSERT_EQ(video("a.gif", "--path flight --airspeed 10000 --seconds 2 --fps 1 --set camera.pitch=60 --frames " + path("f")).code, 0);
+  ASSERT_EQ(
+      video("a.gif", "--path flight --airspeed 10000 --seconds 2 --fps 1 --set camera.pitch=60 --frames " + path("f"))
+          .code,
+      0);
   EXPECT_LT(brightness(1), brightness(0));  // less air above
 }
 

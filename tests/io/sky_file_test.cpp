@@ -112,8 +112,7 @@ TEST(SkyFile, AFileOfKeyframesHasNothingElse) {
     return "accepted";
   };
   EXPECT_EQ(refusalOf("format = 1\n[[keyframe]]\ntime = 1\ncamera.heading = 4\n"), "accepted");
-  EXPECT_EQ(refusalOf("format = 1\n[sun]\nelevation = 3\n"),
-            ":1:1: a file of keyframes has at least one [[keyframe]]");
+  EXPECT_EQ(refusalOf("format = 1\n[sun]\nelevation = 3\n"), ":1:1: a file of keyframes has at least one [[keyframe]]");
   EXPECT_EQ(refusalOf("format = 1\n[[keyframe]]\ntime = 1\n[sun]\n"),
             ":4:2: 'sun' does not belong here: this file has [[keyframe]] alone");
   EXPECT_EQ(refusalOf("format = 1\n[[keyframe]]\ntime = 1\ncamera.heading = 400\n"),
@@ -176,7 +175,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"format = 1\n[[sun]]\n", "a.sky.toml:2:1: 'sun' is a table; write [sun]"},
         Refused{"format = 1\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n",
                 "a.sky.toml:6:1: a sky has at most 4 [[sheet]]"},
-        Refused{"format = 1\n[[keyframe]]\nsun.elevation = 3\n", "a.sky.toml:2:1: a keyframe says when it is: time = 10"},
+        Refused{"format = 1\n[[keyframe]]\nsun.elevation = 3\n",
+                "a.sky.toml:2:1: a keyframe says when it is: time = 10"},
         Refused{"format = 1\n[[keyframe]]\ntime = -1\n", "a.sky.toml:3:8: keyframe.time is -1, outside 0 to 1e+07 s"},
         Refused{"format = 1\n[[keyframe]]\ntime = nan\n", "a.sky.toml:3:8: keyframe.time is nan, outside 0 to 1e+07 s"},
         Refused{"format = 1\n[[keyframe]]\ntime = \"1\"\n", "a.sky.toml:3:8: keyframe.time must be a number"},
@@ -188,9 +188,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "a.sky.toml:5:13: sun.elevation is 400, outside -90 to 90 deg"},
         Refused{"format = 1\n[[keyframe]]\ntime = 1\nlayer.1.base = 400\n",
                 "a.sky.toml:4:9: the sky has 1 [[layer]]; they are counted from 0"},
-        Refused{"format = 1\n[[keyframe]]\ntime = 1\nsun.time = \"25:00\"\n",
-                "a.sky.toml:4:12: sun.time is \"25:00\", but a day has hours 0 to 24, minutes 0 to 59 and seconds below "
-                "60"},
+        Refused{
+            "format = 1\n[[keyframe]]\ntime = 1\nsun.time = \"25:00\"\n",
+            "a.sky.toml:4:12: sun.time is \"25:00\", but a day has hours 0 to 24, minutes 0 to 59 and seconds below "
+            "60"},
         Refused{"format = 1\n[[keyframe]]\ntime = 1\nlayer.base = 4\nlayer.0.base = 5\n",
                 "a.sky.toml:2:1: layer.0.base has two values at 1 s"},
         Refused{"format = 1\nkeyframe = 1\n", "a.sky.toml:2:12: 'keyframe' is a list of tables; write [[keyframe]]"},

@@ -48,8 +48,8 @@ class Video : public testing::Test {
 
   nlohmann::json probe(const std::string& file) const {
     std::string text;
-    const std::vector<std::string> command{findProgram("ffprobe"), "-v",       "error",         "-of", "json",
-                                           "-show_streams",        "-count_frames", "file:" + file};
+    const std::vector<std::string> command{
+        findProgram("ffprobe"), "-v", "error", "-of", "json", "-show_streams", "-count_frames", "file:" + file};
     const ProcessEnd end = runProcess(command, [&](std::string_view line) { text += line; }, {});
     EXPECT_EQ(end.code, 0) << end.errors;
     return nlohmann::json::parse(text)["streams"][0];
@@ -58,9 +58,18 @@ class Video : public testing::Test {
   Image shown(const std::string& file, int number) const {
     const std::string out = path("shown.png");
     const std::vector<std::string> command{findProgram("ffmpeg"),
-                                           "-v", "error", "-y", "-i", "file:" + file, "-vf",
-                                           "select=eq(n\\," + std::to_string(number) + "),format=rgb24", "-frames:v", "1",
-                                           "-update", "1", out};
+                                           "-v",
+                                           "error",
+                                           "-y",
+                                           "-i",
+                                           "file:" + file,
+                                           "-vf",
+                                           "select=eq(n\\," + std::to_string(number) + "),format=rgb24",
+                                           "-frames:v",
+                                           "1",
+                                           "-update",
+                                           "1",
+                                           out};
     const ProcessEnd end = runProcess(command, {}, {});
     EXPECT_EQ(end.code, 0) << end.errors;
     return loadPng(out);
@@ -69,7 +78,8 @@ class Video : public testing::Test {
   void expectColours(const std::string& file, double most) const {
     const Image truth = loadPng(path("100% odd: frames/" + frameName(2))), seen = shown(file, 2);
     requireSameShape(truth, seen);
-    for (const auto& [x, y] : {std::pair(12, 12), std::pair(48, 12), std::pair(12, 34), std::pair(48, 34), std::pair(20, 44)})
+    for (const auto& [x, y] :
+         {std::pair(12, 12), std::pair(48, 12), std::pair(12, 34), std::pair(48, 34), std::pair(20, 44)})
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(truth.at(x, y)[k], seen.at(x, y)[k], most) << x << "," << y << " " << k;
   }
   const fs::path folder = fs::temp_directory_path() / ("welkin_video_" + std::to_string(getpid()));

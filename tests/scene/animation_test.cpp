@@ -119,7 +119,8 @@ TEST(Animation, VectorsAndWhatIsNoNumber) {
 
 TEST(Animation, APresetOfQualityComesBeforeItsSwitches) {
   Scene scene;
-  scene.keyframes = {{0.0, Interpolation::step, {{"quality.light_steps", std::int64_t{16}}, {"quality.preset", std::string("low")}}}};
+  scene.keyframes = {
+      {0.0, Interpolation::step, {{"quality.light_steps", std::int64_t{16}}, {"quality.preset", std::string("low")}}}};
   Quality expected = qualityPreset(QualityPreset::low);
   expected.lightSteps = 16;
   EXPECT_EQ(sceneAt(scene, 0.0).quality, expected);
@@ -168,8 +169,7 @@ TEST(Animation, RefusesWhatCannotBeSet) {
             "keyframe: 'sun.elevatoin' is not a parameter; did you mean 'sun.elevation'?");
   EXPECT_EQ(refusal(key(0.0, "sun.elevation", 100.0)), "keyframe: sun.elevation is 100, outside -90 to 90 deg");
   EXPECT_EQ(refusal(key(0.0, "sun.elevation", true)), "keyframe: sun.elevation must be a number");
-  EXPECT_EQ(refusal(key(0.0, "layer.3.base", 100.0)),
-            "keyframe: the sky has 1 [[layer]]; they are counted from 0");
+  EXPECT_EQ(refusal(key(0.0, "layer.3.base", 100.0)), "keyframe: the sky has 1 [[layer]]; they are counted from 0");
 }
 
 TEST(Animation, KeyframesCanBeTakenOut) {

@@ -259,8 +259,7 @@ class Reader {
     const auto* text = node.as_string();
     const auto* found = std::find(names.begin(), names.end(), text ? std::string_view(text->get()) : "");
     if (found == names.end())
-      report(node.source(),
-             fmt::format("keyframe.interpolation must be one of \"{}\"", fmt::join(names, "\", \"")));
+      report(node.source(), fmt::format("keyframe.interpolation must be one of \"{}\"", fmt::join(names, "\", \"")));
     else
       keyframe.interpolation = static_cast<Interpolation>(found - names.begin());
   }
@@ -269,8 +268,7 @@ class Reader {
   void readKey(Scene& trial, std::span<const Section> sections, const std::string& path, const toml::key& key,
                const toml::node& node, Keyframe& keyframe) {
     if (const toml::table* table = node.as_table()) {
-      for (auto&& [name, child] : *table)
-        readKey(trial, sections, joined(path, name.str()), name, child, keyframe);
+      for (auto&& [name, child] : *table) readKey(trial, sections, joined(path, name.str()), name, child, keyframe);
       return;
     }
     const std::string full = withListNumber(path);

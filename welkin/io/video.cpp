@@ -27,10 +27,20 @@ std::string asPattern(const std::string& folder) {
 }
 
 Words started(const std::string& ffmpeg, const VideoFrames& frames) {
-  return {ffmpeg,       "-nostdin",    "-y",        "-loglevel",
-          "error",      "-progress",   "pipe:1",    "-nostats",
-          "-framerate", fmt::format("{}", frames.framesPerSecond),
-          "-start_number", "0",        "-i",        asPattern(frames.folder)};
+  return {ffmpeg,
+          "-nostdin",
+          "-y",
+          "-loglevel",
+          "error",
+          "-progress",
+          "pipe:1",
+          "-nostats",
+          "-framerate",
+          fmt::format("{}", frames.framesPerSecond),
+          "-start_number",
+          "0",
+          "-i",
+          asPattern(frames.folder)};
 }
 
 // From the pictures' RGB to Y'CbCr of Rec.709, and the tags that say so.
@@ -63,7 +73,8 @@ int framesDone(std::string_view line) {
 void run(const Words& words, const VideoFrames& frames, const Progress& progress) {
   double done = 0.0;
   const ProcessEnd end = runProcess(
-      words, [&](std::string_view line) { done = std::max(done, framesDone(line) / static_cast<double>(frames.count)); },
+      words,
+      [&](std::string_view line) { done = std::max(done, framesDone(line) / static_cast<double>(frames.count)); },
       [&] { return !progress || progress(std::min(done, 1.0)); });
   if (end.code == 0) return;
   const std::size_t last = end.errors.find_last_not_of("\n");
@@ -94,7 +105,8 @@ void encodeVideo(const VideoFrames& frames, VideoFormat format, const std::strin
   switch (format) {
     case VideoFormat::h264:
       append(words, rec709("yuv420p"));
-      append(words, {"-c:v", "libx264", "-preset", "slow", "-crf", "17", "-profile:v", "high", "-movflags", "+faststart"});
+      append(words,
+             {"-c:v", "libx264", "-preset", "slow", "-crf", "17", "-profile:v", "high", "-movflags", "+faststart"});
       append(words, count);
       append(words, {"-f", path.ends_with(".mov") ? "mov" : "mp4", asFile(made)});
       break;
@@ -108,7 +120,8 @@ void encodeVideo(const VideoFrames& frames, VideoFormat format, const std::strin
       // One palette for the film: what rests keeps its colours. Ordered dither, since the pattern of error diffusion
       // moves with every frame.
       Words first = words;
-      append(first, {"-vf", "palettegen=max_colors=256:stats_mode=full:reserve_transparent=0", "-update", "1", asFile(palette)});
+      append(first, {"-vf", "palettegen=max_colors=256:stats_mode=full:reserve_transparent=0", "-update", "1",
+                     asFile(palette)});
       run(first, frames, stageOf(progress, 0.0, 0.4));
       stage = stageOf(progress, 0.4, 1.0);
       append(words, {"-i", asFile(palette), "-lavfi", "paletteuse=dither=bayer:bayer_scale=3:diff_mode=rectangle"});

@@ -161,7 +161,8 @@ Scene sceneAt(const Scene& animated, double time) {
   const std::vector<Section> sections = sectionsOf(scene);
   for (const Section& section : sections)
     for (const Field& field : section.fields) {
-      const auto found = tracks.find(section.path.empty() ? field.name : fmt::format("{}.{}", section.path, field.name));
+      const auto found =
+          tracks.find(section.path.empty() ? field.name : fmt::format("{}.{}", section.path, field.name));
       if (found == tracks.end()) continue;
       auto& [path, track] = *found;
       for (Key& key : track)
@@ -177,7 +178,8 @@ Scene sceneAt(const Scene& animated, double time) {
 void dropKeyframes(Scene& scene, std::string_view path) {
   const bool all = path == "quality.preset";
   for (Keyframe& keyframe : scene.keyframes)
-    std::erase_if(keyframe.values, [&](const KeyValue& v) { return v.path == path || (all && v.path.starts_with("quality.")); });
+    std::erase_if(keyframe.values,
+                  [&](const KeyValue& v) { return v.path == path || (all && v.path.starts_with("quality.")); });
   std::erase_if(scene.keyframes, [](const Keyframe& k) { return k.values.empty(); });
 }
 
