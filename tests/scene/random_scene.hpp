@@ -59,13 +59,6 @@ inline Scene randomScene(unsigned seed, double share = 0.5) {
   return scene;
 }
 
-// Values of keyframes by their paths: files keep no order of them.
-inline void sortValues(Scene& scene) {
-  for (Keyframe& keyframe : scene.keyframes)
-    std::sort(keyframe.values.begin(), keyframe.values.end(),
-              [](const KeyValue& a, const KeyValue& b) { return a.path < b.path; });
-}
-
 // The same with a few keyframes of parameters that the scene has.
 inline Scene randomAnimation(unsigned seed, double share = 0.5) {
   Scene scene = randomScene(seed, share);
@@ -82,8 +75,10 @@ inline Scene randomAnimation(unsigned seed, double share = 0.5) {
         assign(trial, section, f, randomValue(f, random));
         keyframe.values.push_back({section.path.empty() ? f.name : section.path + "." + f.name, f.get(section.object)});
       }
+    // As files are read.
+    std::sort(keyframe.values.begin(), keyframe.values.end(),
+              [](const KeyValue& a, const KeyValue& b) { return a.path < b.path; });
   }
-  sortValues(scene);
   return scene;
 }
 

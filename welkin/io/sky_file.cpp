@@ -238,6 +238,8 @@ class Reader {
       for (auto&& [key, child] : table)
         if (key != "time" && key != "interpolation")
           readKey(trial, sections, std::string(key.str()), key, child, keyframe);
+      std::sort(keyframe.values.begin(), keyframe.values.end(),
+                [](const KeyValue& a, const KeyValue& b) { return a.path < b.path; });
       for (const KeyValue& v : keyframe.values)
         if (!set.emplace(keyframe.time, v.path).second)
           report(table.source(), fmt::format("{} has two values at {} s", v.path, keyframe.time));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <vector>
@@ -70,13 +71,13 @@ int framesDone(std::string_view line) {
   return number;
 }
 
-void run(const Words& words, const VideoFrames& frames, const Progress& progress) {
-  double done = 0.0;
+// Returns how many frames were written.
+int run(const Words& words, const VideoFrames& frames, const Progress& progress) {
+  int done = 0;
   const ProcessEnd end = runProcess(
-      words,
-      [&](std::string_view line) { done = std::max(done, framesDone(line) / static_cast<double>(frames.count)); },
-      [&] { return !progress || progress(std::min(done, 1.0)); });
-  if (end.code == 0) return;
+      words, [&](std::string_view line) { done = std::max(done, framesDone(line)); },
+      [&] { return !progress || progress(std::min(static_cast<double>(done) / frames.count, 1.0)); });
+  if (end.code == 0) return done;
   const std::size_t last = end.errors.find_last_not_of("\n");
   throw Error(ErrorKind::failed, words.front(),
               fmt::format("could not make the film (exit code {}): {}", end.code,
@@ -130,7 +131,10 @@ void encodeVideo(const VideoFrames& frames, VideoFormat format, const std::strin
       break;
     }
   }
-  run(words, frames, stage);
+  if (const int written = run(words, frames, stage); written != frames.count)
+    throw Error(ErrorKind::failed, frames.folder,
+                fmt::format("ffmpeg could read {} of {} frames; delete those that are damaged and start again", written,
+                            frames.count));
   writeFileAtomically(path, [&](const std::string& temporary) {
     std::error_code elsewhere;
     fs::rename(made, temporary, elsewhere);
