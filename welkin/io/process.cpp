@@ -110,7 +110,7 @@ std::string findProgram(std::string_view name) {
   std::string_view rest = path ? path : "/usr/local/bin:/usr/bin:/bin";
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(':'), rest.size());
-    const std::string file = fmt::format("{}/{}", end == 0 ? "." : rest.substr(0, end), name);
+    std::string file = fmt::format("{}/{}", end == 0 ? "." : rest.substr(0, end), name);
     if (::access(file.c_str(), X_OK) == 0) return file;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }

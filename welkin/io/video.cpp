@@ -78,7 +78,7 @@ int run(const Words& words, const VideoFrames& frames, const Progress& progress)
       words, [&](std::string_view line) { done = std::max(done, framesDone(line)); },
       [&] { return !progress || progress(std::min(static_cast<double>(done) / frames.count, 1.0)); });
   if (end.code == 0) return done;
-  const std::size_t last = end.errors.find_last_not_of("\n");
+  const std::size_t last = end.errors.find_last_not_of('\n');
   throw Error(ErrorKind::failed, words.front(),
               fmt::format("could not make the film (exit code {}): {}", end.code,
                           last == std::string::npos ? "it gave no reason" : end.errors.substr(0, last + 1)));
@@ -89,7 +89,7 @@ int run(const Words& words, const VideoFrames& frames, const Progress& progress)
 std::string frameName(int number) { return fmt::format("frame_{:06}.png", number); }
 
 std::string requireFfmpeg() {
-  const std::string path = findProgram("ffmpeg");
+  std::string path = findProgram("ffmpeg");
   if (path.empty())
     throw Error(ErrorKind::failed, "ffmpeg",
                 "was not found in PATH, and films are made by it; install it (Debian: apt-get install ffmpeg)");

@@ -157,6 +157,9 @@ Scene sceneAt(const Scene& animated, double time) {
   tracks.erase("sun.time");
   if (tracks.empty()) return scene;
   const auto refuse = [](const std::string& what) { throw Error(ErrorKind::badInput, "keyframe", what); };
+  const auto refuseValue = [&](const std::string& path, const std::string& wrong) {
+    if (!wrong.empty()) refuse(fmt::format("{} {}", path, wrong));
+  };
   // In the order of the sections: quality.preset comes before what it sets.
   const std::vector<Section> sections = sectionsOf(scene);
   for (const Section& section : sections)
@@ -165,10 +168,8 @@ Scene sceneAt(const Scene& animated, double time) {
           tracks.find(section.path.empty() ? field.name : fmt::format("{}.{}", section.path, field.name));
       if (found == tracks.end()) continue;
       auto& [path, track] = *found;
-      for (Key& key : track)
-        if (const std::string wrong = checkField(field, key.value); !wrong.empty()) refuse(path + " " + wrong);
-      const std::string wrong = assign(scene, section, field, fieldAt(field, track, time));
-      if (!wrong.empty()) refuse(path + " " + wrong);
+      for (Key& key : track) refuseValue(path, checkField(field, key.value));
+      refuseValue(path, assign(scene, section, field, fieldAt(field, track, time)));
       tracks.erase(found);
     }
   if (!tracks.empty()) refuse(unknownParameter(scene, sections, tracks.begin()->first));
