@@ -177,10 +177,12 @@ Scene sceneAt(const Scene& animated, double time) {
 }
 
 void dropKeyframes(Scene& scene, std::string_view path) {
-  const bool all = path == "quality.preset";
+  // "quality.preset" and "hero.0.species" set whatever is beside and below them.
+  const bool all = path == "quality.preset" || (path.starts_with("hero.") && path.ends_with(".species"));
+  const std::string_view beside = path.substr(0, path.rfind('.') + 1);
   for (Keyframe& keyframe : scene.keyframes)
     std::erase_if(keyframe.values,
-                  [&](const KeyValue& v) { return v.path == path || (all && v.path.starts_with("quality.")); });
+                  [&](const KeyValue& v) { return v.path == path || (all && v.path.starts_with(beside)); });
   std::erase_if(scene.keyframes, [](const Keyframe& k) { return k.values.empty(); });
 }
 

@@ -15,7 +15,7 @@ namespace welkin {
 // hand may have it, throws Error (badInput).
 Scene sceneAt(const Scene& scene, double time);
 
-// Takes a parameter's keyframes out; those of all of [quality] with "quality.preset", which sets them.
+// Takes a parameter's keyframes out; those of all that it sets with "quality.preset" and a hero cloud's species.
 void dropKeyframes(Scene& scene, std::string_view path);
 
 // Whether keyframes set a parameter whose path begins so.

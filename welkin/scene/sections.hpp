@@ -39,7 +39,8 @@ std::string withListNumber(std::string_view path);
 // What to say of a path that names no parameter: the nearest one, or how long the list is.
 std::string unknownParameter(const Scene& scene, std::span<const Section> sections, std::string_view path);
 
-// Sets one parameter after checking it, and what hangs on it: quality.preset sets the whole table. Returns what is
+// Sets one parameter after checking it, and what hangs on it: quality.preset sets the whole table, a
+// hero's species all of its tables. Returns what is
 // wrong with the value, without the field's name, or an empty text.
 std::string assign(Scene& scene, const Section& section, const Field& field, FieldValue value);
 
@@ -50,7 +51,7 @@ std::string setField(Scene& scene, std::string_view assignment);
 // A value as --set and the sky file write it, shortest text that gives the same bits; texts stand in quotes.
 std::string formatValue(const Field& field, const FieldValue& value);
 
-// True when the two have the same layers, sheets, grids and keyframes and every parameter is the same.
+// True when the two have the same layers, sheets, grids, hero clouds and keyframes and every parameter is the same.
 bool sameScene(const Scene& a, const Scene& b);
 
 }  // namespace welkin

@@ -127,7 +127,7 @@ Parameter findParameter(std::span<const Section> sections, std::string_view path
 }
 
 std::string withListNumber(std::string_view path) {
-  for (const std::string_view list : {"layer.", "sheet.", "grid."})
+  for (const std::string_view list : {"layer.", "sheet.", "grid.", "hero."})
     if (path.starts_with(list) && path.size() > list.size() && (path[list.size()] < '0' || path[list.size()] > '9'))
       return fmt::format("{}0.{}", list, path.substr(list.size()));
   return std::string(path);
@@ -137,7 +137,7 @@ std::string unknownParameter(const Scene& scene, std::span<const Section> sectio
   const std::size_t dot = path.rfind('.');
   const std::string_view table = dot == std::string_view::npos ? std::string_view() : path.substr(0, dot);
   for (const auto& [list, size] : {std::pair("layer", scene.layers.size()), std::pair("sheet", scene.sheets.size()),
-                                   std::pair("grid", scene.grids.size())})
+                                   std::pair("grid", scene.grids.size()), std::pair("hero", scene.heroes.size())})
     if (table.starts_with(fmt::format("{}.", list)) && std::none_of(sections.begin(), sections.end(), [&](auto& s) {
           return table == s.path || table.starts_with(s.path + ".");
         }))
