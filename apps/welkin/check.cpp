@@ -11,7 +11,7 @@ void addCheck(CLI::App& app) {
   auto arguments = std::make_shared<SkyArguments>();
   arguments->addTo(*command, SkyArguments::Need::required);
   command->callback([arguments] {
-    const Scene scene = arguments->scene();
+    const Scene scene = arguments->animated();
     const auto counted = [](std::size_t n, const char* what) {
       return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
@@ -19,7 +19,8 @@ void addCheck(CLI::App& app) {
                counted(scene.sheets.size(), "sheet"),
                scene.grids.empty() ? "" : " and " + counted(loadGrids(scene).size(), "grid"),
                scene.classical.empty() ? "" : " and " + counted(scene.classical.size(), "classical cloud"),
-               scene.heroes.empty() ? "" : " and " + counted(scene.heroes.size(), "hero cloud"));
+               scene.heroes.empty() ? "" : " and " + counted(scene.heroes.size(), "hero cloud"),
+               scene.keyframes.empty() ? "" : " with " + counted(scene.keyframes.size(), "keyframe"));
   });
 }
 

@@ -27,7 +27,9 @@ struct SkyArguments {
   enum class Need { optional, required };
   void addTo(CLI::App& command, Need need);
   void addPictureOptionsTo(CLI::App& command);
+  // The sky as it is at its time, and as its file has it, with its keyframes. What the command line sets has none.
   Scene scene() const;
+  Scene animated() const;
 };
 
 // $WELKIN_PRESETS, or the folder beside the program in an installation or in the source tree; empty when there is none.
@@ -56,6 +58,7 @@ void addInfo(CLI::App& app);
 void addNoise(CLI::App& app);
 void addWeather(CLI::App& app);
 void addVdb(CLI::App& app);
+void addVideo(CLI::App& app);
 void addFlux(CLI::App& app);
 void addValidate(CLI::App& app);
 void addDoctor(CLI::App& app);

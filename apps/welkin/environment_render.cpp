@@ -54,15 +54,12 @@ Environment renderEnvironment(const Scene& source, const EnvironmentOptions& opt
   const int tileWidth = std::min(width, kTileWidth), tileHeight = std::min(height, kTileHeight);
   const int columns = (width + tileWidth - 1) / tileWidth, rows = (height + tileHeight - 1) / tileHeight;
   const int frames = options.frames > 0 ? options.frames : kMarches;
-  realtime::CustomTextures textures;
-  textures.weatherMaps = weatherMaps(scene);
-  textures.grids = loadGrids(scene);
   Environment out{Image(pixels.width(), pixels.height(), 3), {}, {}};
   out.light.features = featuresOf(scene);
 
   // Tiles at the right and lower edges may reach over them: they are moved back in, so that all have one size.
   realtime::Offscreen screen(tileWidth, tileHeight);
-  screen.renderer().setScene(scene, textures);
+  screen.renderer().setScene(scene, texturesOf(scene));
   const double turns = static_cast<double>(cameras.size()) * columns * rows * frames;
   double done = 0.0;
   for (std::size_t picture = 0; picture < cameras.size(); ++picture)

@@ -122,6 +122,7 @@ void addHdri(CLI::App& app) {
       ->capture_default_str();
   command->add_flag("--no-clouds", a.noClouds, "the clear sky alone");
   addRendererOptions(*command, a.renderer, a.trace);
+  addTimeLimit(*command, a.trace);
   command->add_option("--quality", a.sky.quality, "low, medium, high or ultra")->type_name("NAME");
   command->add_option("--frames", a.frames, "marches a pixel; 0 takes four")
       ->type_name("N")

@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   addNoise(app);
   addWeather(app);
   addVdb(app);
+  addVideo(app);
   addFlux(app);
   addValidate(app);
   addDoctor(app);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/welkin/usage_error.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/tone.hpp"
@@ -45,12 +47,19 @@ std::vector<Volume> weatherMaps(const Scene& scene) {
   return maps;
 }
 
+realtime::CustomTextures texturesOf(const Scene& scene) {
+  realtime::CustomTextures textures;
+  // Without pictures the renderer keeps the weather that it has.
+  const bool pictures = std::any_of(scene.layers.begin(), scene.layers.end(),
+                                    [](const Layer& layer) { return !layer.weather.map.empty(); });
+  if (pictures) textures.weatherMaps = weatherMaps(scene);
+  textures.grids = loadGrids(scene);
+  return textures;
+}
+
 Image renderSky(const Scene& scene, const RenderOptions& options) {
   realtime::Offscreen screen(options.width, options.height);
-  realtime::CustomTextures textures;
-  textures.weatherMaps = weatherMaps(scene);
-  textures.grids = loadGrids(scene);
-  screen.renderer().setScene(scene, textures);
+  screen.renderer().setScene(scene, texturesOf(scene));
   const int interleave = scene.quality.reprojection ? scene.quality.interleave : 1;
   const int frames = options.frames > 0 ? options.frames : kSamplesPerPixel * interleave * interleave;
   for (int i = 0; i < frames; ++i) {

@@ -6,6 +6,7 @@
 #include "welkin/base/image.hpp"
 #include "welkin/base/progress.hpp"
 #include "welkin/noise/volume.hpp"
+#include "welkin/realtime/renderer.hpp"
 #include "welkin/scene/scene.hpp"
 
 namespace welkin::app {
@@ -19,6 +20,9 @@ struct RenderOptions {
 // The authoring map of every layer that names a picture, at the layer's index: RGBA, south row first. Throws Error
 // (badInput) for a picture that cannot be read.
 std::vector<Volume> weatherMaps(const Scene& scene);
+
+// What the scene names in files, for the real-time renderer. Throws Error (badInput) for what cannot be read.
+realtime::CustomTextures texturesOf(const Scene& scene);
 
 // The sky through its camera by the real-time renderer: linear RGB in kcd/m^2. Throws Error (noOpenGl).
 Image renderSky(const Scene& scene, const RenderOptions& options);

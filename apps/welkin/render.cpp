@@ -55,6 +55,7 @@ void addRender(CLI::App& app) {
       ->check(CLI::Range(0, 100000));
   arguments->sky.addPictureOptionsTo(*command);
   addRendererOptions(*command, arguments->renderer, arguments->trace);
+  addTimeLimit(*command, arguments->trace);
   addStillOptions(*command, arguments->trace);
   command->add_flag("-q,--quiet", arguments->quiet, "no progress");
   command->callback([arguments] { render(*arguments); });

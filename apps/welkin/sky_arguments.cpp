@@ -4,6 +4,8 @@
 
 #include "apps/welkin/command.hpp"
 #include "welkin/base/error.hpp"
+#include "welkin/io/sky_file.hpp"
+#include "welkin/scene/animation.hpp"
 #include "welkin/scene/sections.hpp"
 
 namespace welkin::app {
@@ -15,7 +17,7 @@ constexpr int kMaxSide = 16384;  // of a picture
 // A wrong value on the command line is a wrong use of the command, not a bad file.
 void set(Scene& scene, const std::string& assignment) {
   try {
-    setField(scene, assignment);
+    dropKeyframes(scene, setField(scene, assignment));
   } catch (const Error& e) {
     throw UsageError(e.what());
   }
@@ -77,7 +79,8 @@ void SkyArguments::addTo(CLI::App& command, Need need) {
       ->take_all()
       ->allow_extra_args(false);  // one value each: what follows may be the sky
   command.add_option("--seed", seed, "another seed, another sky")->type_name("N");
-  command.add_option("--time", time, "seconds that wind and growth have been at work")->type_name("T");
+  command.add_option("--time", time, "seconds that wind and growth have been at work; keyframes stand on this clock")
+      ->type_name("T");
 }
 
 void SkyArguments::addPictureOptionsTo(CLI::App& command) {
@@ -92,6 +95,11 @@ void SkyArguments::addPictureOptionsTo(CLI::App& command) {
 }
 
 Scene SkyArguments::scene() const {
+  const Scene all = animated();
+  return sceneAt(all, all.time);
+}
+
+Scene SkyArguments::animated() const {
   Scene scene = loadSkyNamed(sky, presetFolder());
   if (!quality.empty()) set(scene, "quality.preset=" + quality);
   if (seed) set(scene, fmt::format("seed={}", *seed));

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 
+#include "apps/welkin/interrupt.hpp"
 #include "apps/welkin/picture.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/exr.hpp"
@@ -21,26 +20,6 @@ namespace welkin::app {
 namespace {
 
 constexpr int kSamples = 64, kMostSamples = 4096;
-
-std::atomic<bool> interrupted{false};
-
-// While it lives, the first Ctrl-C asks for an end and the second one ends the program at once.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupted = false;
-    before_ = std::signal(SIGINT, [](int) {
-      interrupted = true;
-      std::signal(SIGINT, SIG_DFL);
-    });
-  }
-  ~InterruptGuard() { std::signal(SIGINT, before_); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  void (*before_)(int);
-};
 
 // All that a picture depends on, as text.
 std::string identityOf(const Scene& source, std::span<const Volume> maps, const trace::TraceSettings& settings) {
@@ -125,8 +104,7 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
       ->check(CLI::IsMember({"realtime", "path"}))
       ->type_name("NAME");
   const CLI::Option* flags[] = {
-      command
-          .add_option("--samples", options.samples, "path: paths of a pixel; 64 unless --noise or --seconds decides")
+      command.add_option("--samples", options.samples, "path: paths of a pixel; 64 unless something else decides")
           ->type_name("N")
           ->check(CLI::Range(1, 1 << 20)),
       command
@@ -134,9 +112,6 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
                       "path: go on until the noise is this share of the way from black to white, e.g. 0.02")
           ->type_name("SHARE")
           ->check(CLI::Range(1e-4, 1.0)),
-      command.add_option("--seconds", options.seconds, "path: stop after this time")
-          ->type_name("S")
-          ->check(CLI::Range(0.1, 1e7)),
       command
           .add_option("--air", options.air,
                       "path: medium traces light through the air too; tables takes sky and aerial perspective from the "
@@ -151,6 +126,12 @@ void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& opt
       command.add_flag("--denoise", options.denoise,
                        "path: smooth the finished picture where its variance explains the noise: for the eye, biased")};
   options.flags.insert(options.flags.end(), std::begin(flags), std::end(flags));
+}
+
+void addTimeLimit(CLI::App& command, TraceOptions& options) {
+  options.flags.push_back(command.add_option("--seconds", options.seconds, "path: stop after this time")
+                              ->type_name("S")
+                              ->check(CLI::Range(0.1, 1e7)));
 }
 
 void addStillOptions(CLI::App& command, TraceOptions& options) {
@@ -197,7 +178,7 @@ void traceToFile(const Scene& scene, const TraceOptions& options, const std::str
   Checkpoint checkpoint(options.checkpoint, scene, maps, settings);
   checkpoint.restore(tracer);
   const bool complete =
-      tracer.run([&](double done) { return !interrupted && (!options.progress || options.progress(done)); },
+      tracer.run([&](double done) { return !guard.asked() && (!options.progress || options.progress(done)); },
                  [&] { checkpoint.save(tracer); });
   if (!complete) checkpoint.save(tracer);
   const trace::TraceLayers layers = tracer.layers();

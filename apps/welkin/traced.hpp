@@ -25,7 +25,9 @@ struct TraceOptions {
 // The tracer's settings for these options.
 trace::TraceSettings traceSettings(const TraceOptions& options);
 
-// --renderer, and how long the path tracer works; addStillOptions adds what makes sense for a single picture.
+// --renderer, and how long the path tracer works; addTimeLimit adds --seconds, addStillOptions what makes sense for a
+// single picture.
+void addTimeLimit(CLI::App& command, TraceOptions& options);
 void addStillOptions(CLI::App& command, TraceOptions& options);
 void addRendererOptions(CLI::App& command, Renderer& renderer, TraceOptions& options);
 // Throws UsageError where one of them is given for a renderer that has no use for it.

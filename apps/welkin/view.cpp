@@ -1,11 +1,8 @@
 // welkin view: a window on a sky.
-#include <algorithm>
-
 #include "apps/welkin/command.hpp"
 #include "apps/welkin/picture.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/io/file.hpp"
-#include "welkin/io/grids.hpp"
 #ifdef WELKIN_HAS_VIEWER
 #include "apps/viewer/viewer.hpp"
 #endif
@@ -29,7 +26,7 @@ void view(const ViewArguments& arguments) {
     throw UsageError("--screenshot shows the end of a --script");
   const Size size = parseSize(arguments.size);
   viewer::ViewerOptions options;
-  options.scene = arguments.sky.scene();
+  options.scene = arguments.sky.animated();
   options.skyName = arguments.sky.sky;
   if (arguments.sky.sky.find(".toml") != std::string::npos) options.file = arguments.sky.sky;
   options.width = size.width;
@@ -40,15 +37,7 @@ void view(const ViewArguments& arguments) {
   options.script = arguments.script;
   options.screenshot = arguments.screenshot;
   for (const Preset& p : findPresets()) options.presets.push_back({p.name, p.genus, p.sentence, p.file});
-  options.loadTextures = [](const Scene& scene) {
-    realtime::CustomTextures textures;
-    // Without pictures the renderer keeps the weather that it has.
-    const bool pictures = std::any_of(scene.layers.begin(), scene.layers.end(),
-                                      [](const Layer& layer) { return !layer.weather.map.empty(); });
-    if (pictures) textures.weatherMaps = weatherMaps(scene);
-    textures.grids = loadGrids(scene);
-    return textures;
-  };
+  options.loadTextures = texturesOf;
   options.savePicture = [](const std::string& path, const Image& light, const Film& film) {
     requirePictureFile(path);
     savePicture(path, light, film);

@@ -84,5 +84,15 @@ TEST(Sun, RefusesDatesAndTimesThatDoNotExist) {
   EXPECT_THROW(sunDirection({.mode = SunMode::place, .date = "x"}), Error);
 }
 
+TEST(DateTime, DaysComeBack) {
+  for (const char* date : {"1999-12-31", "2000-01-01", "2024-02-29", "1605-03-01", "2026-06-21"})
+    for (const char* time : {"00:00:00.000", "00:00:00.001", "11:59:59.999", "12:00:00.000", "23:59:59.000"}) {
+      const DateTime back = dateTimeFromDays(daysFromDateTime(date, time));
+      EXPECT_EQ(back.date, date);
+      EXPECT_EQ(back.time, time);
+    }
+  EXPECT_EQ(dateTimeFromDays(daysFromDateTime("2026-12-31", "24:00")).date, "2027-01-01");
+}
+
 }  // namespace
 }  // namespace welkin

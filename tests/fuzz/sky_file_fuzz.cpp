@@ -62,6 +62,8 @@ constexpr std::string_view kTokens[] = {"[",
                                         "preset = \"ultra\"\n",
                                         "map = \"x.png\"\n",
                                         "[layer.0]\n",
+                                        "[[keyframe]]\n",
+                                        "time = 5\n",
                                         "sun.elevation = 3\n",
                                         "\\u0000",
                                         "\\U00110000"};
@@ -96,7 +98,7 @@ const test::Mutation kMutations[] = {test::piece(kTokens), sayElsewhere, moveLin
 
 TEST(SkyFileFuzz, EveryMutationIsReadOrRefusedWithItsPlace) {
   std::vector<std::string> seeds;
-  for (unsigned i = 0; i < 40; ++i) seeds.push_back(writeSky(test::randomScene(i, 0.1)));
+  for (unsigned i = 0; i < 40; ++i) seeds.push_back(writeSky(test::randomAnimation(i, 0.1)));
   test::Random random(2024);
   int read = 0;
   for (int i = 0; i < kFiles; ++i) {

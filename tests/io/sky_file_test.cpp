@@ -87,7 +87,7 @@ TEST(SkyFile, WritesOnlyWhatDiffers) {
 
 TEST(SkyFile, RandomScenesComeBackBitForBit) {
   for (unsigned seed = 0; seed < 500; ++seed) {
-    const Scene scene = test::randomScene(seed, seed % 2 ? 0.2 : 1.0);
+    const Scene scene = test::randomAnimation(seed, seed % 2 ? 0.2 : 1.0);
     const std::string text = writeSky(scene);
     const Scene back = parseSky(text, "random");
     ASSERT_TRUE(sameScene(scene, back)) << "seed " << seed << "\n" << text;
@@ -99,6 +99,47 @@ TEST(SkyFile, RefusesToWriteMoreThanItReads) {
   Scene scene;
   scene.layers.resize(5);
   EXPECT_THROW(writeSky(scene), Error);
+}
+
+TEST(SkyFile, ReadsKeyframes) {
+  const Scene s = parseSky(
+      "format = 1\n[[keyframe]]\ntime = 0\nsun.elevation = 3\nlayer.weather.coverage = 0.25\n"
+      "[[keyframe]]\ntime = 2.5\ninterpolation = \"smooth\"\n[keyframe.camera]\nposition = [1, 2, 3]\n",
+      "a");
+  ASSERT_EQ(s.keyframes.size(), 2u);
+  EXPECT_EQ(s.keyframes[0].time, 0.0);
+  EXPECT_EQ(s.keyframes[0].interpolation, Interpolation::linear);
+  ASSERT_EQ(s.keyframes[0].values.size(), 2u);
+  EXPECT_EQ(s.keyframes[0].values[0].path, "layer.0.weather.coverage");
+  EXPECT_EQ(std::get<double>(s.keyframes[0].values[0].value), 0.25);
+  EXPECT_EQ(s.keyframes[1].time, 2.5);
+  EXPECT_EQ(s.keyframes[1].interpolation, Interpolation::smooth);
+  EXPECT_EQ(s.keyframes[1].values[0].value, FieldValue(std::array{1.0, 2.0, 3.0}));
+  // They change nothing but with time.
+  Scene still = s;
+  still.keyframes.clear();
+  EXPECT_TRUE(sameScene(still, Scene{}));
+  EXPECT_FALSE(sameScene(s, Scene{}));
+}
+
+TEST(SkyFile, AFileOfKeyframesHasNothingElse) {
+  const std::string path = testing::TempDir() + "welkin_camera.toml";
+  const auto refusalOf = [&](const std::string& text) -> std::string {
+    writeFileAtomically(path, text);
+    try {
+      loadKeyframes(path, Scene{});
+    } catch (const Error& e) {
+      return std::string(e.what()).substr(path.size());
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusalOf("format = 1\n[[keyframe]]\ntime = 1\ncamera.heading = 4\n"), "accepted");
+  EXPECT_EQ(refusalOf("format = 1\n[sun]\nelevation = 3\n"), ":1:1: a file of keyframes has at least one [[keyframe]]");
+  EXPECT_EQ(refusalOf("format = 1\n[[keyframe]]\ntime = 1\n[sun]\n"),
+            ":4:2: 'sun' does not belong here: this file has [[keyframe]] alone");
+  EXPECT_EQ(refusalOf("format = 1\n[[keyframe]]\ntime = 1\ncamera.heading = 400\n"),
+            ":4:18: camera.heading is 400, outside -360 to 360 deg");
+  std::filesystem::remove(path);
 }
 
 struct Refused {
@@ -156,6 +197,26 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"format = 1\n[[sun]]\n", "a.sky.toml:2:1: 'sun' is a table; write [sun]"},
         Refused{"format = 1\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n[[sheet]]\n",
                 "a.sky.toml:6:1: a sky has at most 4 [[sheet]]"},
+        Refused{"format = 1\n[[keyframe]]\nsun.elevation = 3\n",
+                "a.sky.toml:2:1: a keyframe says when it is: time = 10"},
+        Refused{"format = 1\n[[keyframe]]\ntime = -1\n", "a.sky.toml:3:8: keyframe.time is -1, outside 0 to 1e+07 s"},
+        Refused{"format = 1\n[[keyframe]]\ntime = nan\n", "a.sky.toml:3:8: keyframe.time is nan, outside 0 to 1e+07 s"},
+        Refused{"format = 1\n[[keyframe]]\ntime = \"1\"\n", "a.sky.toml:3:8: keyframe.time must be a number"},
+        Refused{"format = 1\n[[keyframe]]\ntime = 1\ninterpolation = \"spline\"\n",
+                "a.sky.toml:4:17: keyframe.interpolation must be one of \"linear\", \"smooth\", \"step\""},
+        Refused{"format = 1\n[[keyframe]]\ntime = 1\nsun.elevatoin = 4\n",
+                "a.sky.toml:4:5: 'sun.elevatoin' is not a parameter; did you mean 'sun.elevation'?"},
+        Refused{"format = 1\n[[keyframe]]\ntime = 1\n[keyframe.sun]\nelevation = 400\n",
+                "a.sky.toml:5:13: sun.elevation is 400, outside -90 to 90 deg"},
+        Refused{"format = 1\n[[keyframe]]\ntime = 1\nlayer.1.base = 400\n",
+                "a.sky.toml:4:9: the sky has 1 [[layer]]; they are counted from 0"},
+        Refused{
+            "format = 1\n[[keyframe]]\ntime = 1\nsun.time = \"25:00\"\n",
+            "a.sky.toml:4:12: sun.time is \"25:00\", but a day has hours 0 to 24, minutes 0 to 59 and seconds below "
+            "60"},
+        Refused{"format = 1\n[[keyframe]]\ntime = 1\nlayer.base = 4\nlayer.0.base = 5\n",
+                "a.sky.toml:2:1: layer.0.base has two values at 1 s"},
+        Refused{"format = 1\nkeyframe = 1\n", "a.sky.toml:2:12: 'keyframe' is a list of tables; write [[keyframe]]"},
         // Of two mistakes, the one that comes first in the file.
         Refused{"format = 1\n[[classical]]\n[classical.automaton]\nwidth = 100\n",
                 "a.sky.toml:4:9: classical.automaton.width is 100, but must be one of 64, 128, 192, 256, 320, 384, "

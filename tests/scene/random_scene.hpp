@@ -1,5 +1,6 @@
 #pragma once
 // Scenes with random values in every field of every section; the same seed gives the same scene.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -59,6 +60,29 @@ inline Scene randomScene(unsigned seed, double share = 0.5) {
       if (section.path.starts_with("grid.") || section.path.starts_with("classical.") ||
           section.path.starts_with("hero."))
         assign(scene, section, f, randomValue(f, random));
+  return scene;
+}
+
+// The same with a few keyframes of parameters that the scene has.
+inline Scene randomAnimation(unsigned seed, double share = 0.5) {
+  Scene scene = randomScene(seed, share);
+  std::mt19937 random(seed);
+  Scene trial = scene;
+  const std::vector<Section> sections = sectionsOf(trial);
+  for (unsigned i = random() % 5; i > 0; --i) {
+    Keyframe& keyframe = scene.keyframes.emplace_back();
+    keyframe.time = 1000.0 * i + between(random, 0, 1);
+    keyframe.interpolation = static_cast<Interpolation>(random() % 3);
+    for (const Section& section : sections)
+      for (const Field& f : section.fields) {
+        if (random() % 60 != 0 || (section.path.empty() && f.name == std::string_view("time"))) continue;
+        assign(trial, section, f, randomValue(f, random));
+        keyframe.values.push_back({section.path.empty() ? f.name : section.path + "." + f.name, f.get(section.object)});
+      }
+    // As files are read.
+    std::sort(keyframe.values.begin(), keyframe.values.end(),
+              [](const KeyValue& a, const KeyValue& b) { return a.path < b.path; });
+  }
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #include "welkin/atmosphere/sun.hpp"
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -151,6 +152,21 @@ double daysFromDateTime(const std::string& date, const std::string& time) {
   constexpr long kNoon2000 = 2451545;
   return static_cast<double>(julianDay(year, month, day) - kNoon2000) - 0.5 +
          (hour * 3600.0 + minute * 60.0 + second) / 86400.0;
+}
+
+DateTime dateTimeFromDays(double daysSince2000) {
+  using namespace std::chrono;
+  constexpr long kDay = 86400000;
+  const sys_days start{2000y / January / 1};
+  const long all = std::lround((daysSince2000 + 0.5) * kDay);
+  const long day = (all >= 0 ? all : all - kDay + 1) / kDay, left = all - day * kDay;
+  const year_month_day date{start + days(day)};
+  char dateText[32], timeText[32];
+  std::snprintf(dateText, sizeof dateText, "%04d-%02u-%02u", static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  std::snprintf(timeText, sizeof timeText, "%02ld:%02ld:%02ld.%03ld", left / 3600000, left / 60000 % 60,
+                left / 1000 % 60, left % 1000);
+  return {dateText, timeText};
 }
 
 glm::vec3 sunDirection(const Sun& sun) {

@@ -24,6 +24,12 @@ SolarPosition solarPosition(double daysSince2000, double latitude, double longit
 // names what is wrong with them.
 double daysFromDateTime(const std::string& date, const std::string& time);
 
+// Its inverse, to the millisecond: "2026-06-21" and "18:30:00.000".
+struct DateTime {
+  std::string date, time;
+};
+DateTime dateTimeFromDays(double daysSince2000);
+
 // Unit vector toward the sun. Throws Error (badInput) for a date or time that does not exist, in mode place.
 glm::vec3 sunDirection(const Sun& sun);
 

@@ -1,11 +1,13 @@
 #include "welkin/io/sky_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <tuple>
 
 #include "welkin/base/error.hpp"
@@ -19,6 +21,7 @@ namespace {
 constexpr std::size_t kMaxBytes = 1 << 20;
 constexpr int kMaxDots = 32;
 constexpr std::int64_t kFormat = 1;
+constexpr double kLatest = 1e7;  // s, of a keyframe: as long as Scene::time goes
 
 struct Position {
   std::size_t line = 1, column = 1;
@@ -107,10 +110,28 @@ class Reader {
     sizeLists(root);
     sections_ = sectionsOf(scene_);
     readTable(root, "");
-    if (problem_) refuse(name_, problem_->first, problem_->second);
+    if (const toml::node* keyframes = root.get("keyframe")) readKeyframes(*keyframes);
+    finish();
+  }
+
+  // A file that has nothing but keyframes, for the scene.
+  void readKeyframesOf(const toml::table& root) {
+    checkFormat(root);
+    for (auto&& [key, node] : root)
+      if (key != "format" && key != "keyframe")
+        report(key.source(), fmt::format("'{}' does not belong here: this file has [[keyframe]] alone", key.str()));
+    const toml::node* keyframes = root.get("keyframe");
+    if (!keyframes) report(root.source(), "a file of keyframes has at least one [[keyframe]]");
+    scene_.keyframes.clear();
+    if (keyframes) readKeyframes(*keyframes);
+    finish();
   }
 
  private:
+  void finish() const {
+    if (problem_) refuse(name_, problem_->first, problem_->second);
+  }
+
   // The tables of the document come sorted by name; of several problems, the reader wants to hear of the first.
   void report(const toml::source_region& source, std::string what) {
     const Position at = positionOf(source);
@@ -159,7 +180,7 @@ class Reader {
       const Field* field = section == sections_.end() ? nullptr : findField(*section, key.str());
       if (field)
         readValue(*section, *field, node);
-      else if (!(path.empty() && key == "format"))
+      else if (!path.empty() || (key != "format" && key != "keyframe"))
         readChild(path, key, node);
     };
     // Presets first, whatever else stands in the table wins.
@@ -196,12 +217,77 @@ class Reader {
   }
 
   void readValue(const Section& section, const Field& field, const toml::node& node) {
+    const std::string wrong = assign(scene_, section, field, valueFor(field, node));
+    if (!wrong.empty()) report(node.source(), fmt::format("{} {}", joined(tableName(section.path), field.name), wrong));
+  }
+
+  // What the node holds, or something that the field refuses.
+  FieldValue valueFor(const Field& field, const toml::node& node) const {
     std::optional<FieldValue> value = valueOf(node);
     if (!value) value = field.kind == FieldKind::boolean ? FieldValue(std::string()) : FieldValue(false);
     if (field.kind == FieldKind::file)
       if (auto* text = std::get_if<std::string>(&*value); text && !text->empty()) *text = (folder_ / *text).string();
-    const std::string wrong = assign(scene_, section, field, *value);
-    if (!wrong.empty()) report(node.source(), fmt::format("{} {}", joined(tableName(section.path), field.name), wrong));
+    return *value;
+  }
+
+  void readKeyframes(const toml::node& node) {
+    const std::size_t count = listSize(node, "keyframe", kMaxKeyframes);
+    Scene trial = scene_;  // takes every value once: what it then holds is the value
+    const std::vector<Section> sections = sectionsOf(trial);
+    std::set<std::pair<double, std::string>> set;
+    for (std::size_t i = 0; i < count; ++i) {
+      const toml::table& table = *(*node.as_array())[i].as_table();
+      Keyframe& keyframe = scene_.keyframes.emplace_back();
+      const toml::node* time = table.get("time");
+      if (time)
+        readTime(*time, keyframe);
+      else
+        report(table.source(), "a keyframe says when it is: time = 10");
+      if (const toml::node* how = table.get("interpolation")) readInterpolation(*how, keyframe);
+      for (auto&& [key, child] : table)
+        if (key != "time" && key != "interpolation")
+          readKey(trial, sections, std::string(key.str()), key, child, keyframe);
+      std::sort(keyframe.values.begin(), keyframe.values.end(),
+                [](const KeyValue& a, const KeyValue& b) { return a.path < b.path; });
+      for (const KeyValue& v : keyframe.values)
+        if (!set.emplace(keyframe.time, v.path).second)
+          report(table.source(), fmt::format("{} has two values at {} s", v.path, keyframe.time));
+    }
+  }
+
+  void readTime(const toml::node& node, Keyframe& keyframe) {
+    const std::optional<double> time = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!time)
+      report(node.source(), "keyframe.time must be a number");
+    else if (!(*time >= 0.0 && *time <= kLatest))
+      report(node.source(), fmt::format("keyframe.time is {:g}, outside 0 to {:g} s", *time, kLatest));
+    else
+      keyframe.time = *time;
+  }
+
+  void readInterpolation(const toml::node& node, Keyframe& keyframe) {
+    const auto& names = ChoiceNames<Interpolation>::names;
+    const auto* text = node.as_string();
+    const auto* found = std::find(names.begin(), names.end(), text ? std::string_view(text->get()) : "");
+    if (found == names.end())
+      report(node.source(), fmt::format("keyframe.interpolation must be one of \"{}\"", fmt::join(names, "\", \"")));
+    else
+      keyframe.interpolation = static_cast<Interpolation>(found - names.begin());
+  }
+
+  // The parameters below a key of a keyframe; `path` is that of the key.
+  void readKey(Scene& trial, std::span<const Section> sections, const std::string& path, const toml::key& key,
+               const toml::node& node, Keyframe& keyframe) {
+    if (const toml::table* table = node.as_table()) {
+      for (auto&& [name, child] : *table) readKey(trial, sections, joined(path, name.str()), name, child, keyframe);
+      return;
+    }
+    const std::string full = withListNumber(path);
+    const Parameter p = findParameter(sections, full);
+    if (!p.field) return report(key.source(), unknownParameter(trial, sections, full));
+    const std::string wrong = assign(trial, *p.section, *p.field, valueFor(*p.field, node));
+    if (!wrong.empty()) return report(node.source(), fmt::format("{} {}", full, wrong));
+    keyframe.values.push_back({full, p.field->get(p.section->object)});
   }
 
   std::string unknownKey(const std::string& path, std::string_view key) const {
@@ -215,7 +301,7 @@ class Reader {
         known.push_back(rest.substr(0, rest.find('.')));
       }
     }
-    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet", "grid", "classical", "hero"});
+    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet", "grid", "classical", "hero", "keyframe"});
     const std::string near = nearestName(key, known);
     const std::string table = path.empty() ? "a sky" : tableName(path);
     return fmt::format("'{}' is not a parameter of {}; {}", key, table,
@@ -240,7 +326,35 @@ Scene parseSky(std::string_view text, const std::string& name) {
 
 Scene loadSky(const std::string& path) { return parseSky(readFile(path, kMaxBytes + 1), path); }
 
+std::vector<Keyframe> loadKeyframes(const std::string& path, const Scene& scene) {
+  const toml::table root = parseToml(readFile(path, kMaxBytes + 1), path);
+  Scene read = scene;
+  Reader(read, path).readKeyframesOf(root);
+  return read.keyframes;
+}
+
 std::string tomlVersion() { return fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH); }
+
+namespace {
+
+std::string writeKeyframes(Scene& scene) {
+  const std::vector<Section> sections = sectionsOf(scene);
+  std::string out;
+  for (const Keyframe& keyframe : scene.keyframes) {
+    out += fmt::format("\n[[keyframe]]\ntime = {}\n", keyframe.time);
+    if (keyframe.interpolation != Interpolation::linear)
+      out += fmt::format("interpolation = \"{}\"\n",
+                         ChoiceNames<Interpolation>::names[static_cast<std::size_t>(keyframe.interpolation)]);
+    for (const KeyValue& v : keyframe.values) {
+      const Parameter p = findParameter(sections, v.path);
+      if (!p.field) throw Error(ErrorKind::badInput, "keyframe", unknownParameter(scene, sections, v.path));
+      out += fmt::format("{} = {}\n", v.path, formatValue(*p.field, v.value));
+    }
+  }
+  return out;
+}
+
+}  // namespace
 
 std::string writeSky(const Scene& original) {
   if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets || original.grids.size() > kMaxGrids ||
@@ -285,7 +399,7 @@ std::string writeSky(const Scene& original) {
     else if (!rows.empty())
       out += fmt::format("\n[{}]\n{}", tableName(section.path), rows);
   }
-  return out;
+  return out + writeKeyframes(scene);
 }
 
 }  // namespace welkin

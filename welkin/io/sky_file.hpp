@@ -6,6 +6,7 @@
 // exactly those that it names, `layer = []` has none, and a file that names none of them has the default layer.
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "welkin/scene/scene.hpp"
 
@@ -18,8 +19,11 @@ Scene loadSky(const std::string& path);
 // The same for text in memory; `name` stands in errors, and relative files are looked for in its folder.
 Scene parseSky(std::string_view text, const std::string& name);
 
+// Reads a file of [[keyframe]] tables for the scene, whose own it does not count. Throws Error (badInput) as loadSky.
+std::vector<Keyframe> loadKeyframes(const std::string& path, const Scene& scene);
+
 // The sky as text that parseSky reads as the same scene: what differs from the defaults, in the order of the sections.
-// Throws Error (badInput) for more of anything than a sky may have.
+// Throws Error (badInput) for more of anything than a sky may have, and for keyframes of what it has not.
 std::string writeSky(const Scene& scene);
 
 // The version of toml++ that Welkin was built with.

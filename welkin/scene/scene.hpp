@@ -14,6 +14,7 @@
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/light/settings.hpp"
 #include "welkin/precipitation/settings.hpp"
+#include "welkin/scene/keyframe.hpp"
 #include "welkin/scene/quality.hpp"
 
 namespace welkin {
@@ -120,7 +121,8 @@ struct FieldTable<Film> {
   }
 };
 
-inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4, kMaxGrids = 4, kMaxClassical = 8, kMaxHeroes = 32;
+inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4, kMaxGrids = 4, kMaxClassical = 8, kMaxHeroes = 32,
+                             kMaxKeyframes = 4096;
 
 struct Scene {
   std::string title;
@@ -144,6 +146,7 @@ struct Scene {
   Film film;
   Quality quality;
   NoiseSettings noise;
+  std::vector<Keyframe> keyframes;  // scene/animation.hpp; renderers draw the values above
 };
 
 }  // namespace welkin

@@ -158,7 +158,7 @@ bool sameScene(const Scene& a, const Scene& b) {
     for (const Field& f : left[i].fields)
       if (f.get(left[i].object) != f.get(right[i].object)) return false;
   }
-  return true;
+  return a.keyframes == b.keyframes;
 }
 
 }  // namespace welkin

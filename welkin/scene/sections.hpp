@@ -55,13 +55,14 @@ std::vector<SceneList> listsOf(Scene& scene);
 std::string assign(Scene& scene, const Section& section, const Field& field, FieldValue value);
 
 // Sets one parameter from text such as "layer.0.weather.coverage=0.5" or "camera.position=0,0,1500"; a list without a
-// number means its first element. Throws Error (badInput).
-void setField(Scene& scene, std::string_view assignment);
+// number means its first element. Returns the parameter's path. Throws Error (badInput).
+std::string setField(Scene& scene, std::string_view assignment);
 
 // A value as --set and the sky file write it, shortest text that gives the same bits; texts stand in quotes.
 std::string formatValue(const Field& field, const FieldValue& value);
 
-// True when the two have the same layers, sheets, grids, classical and hero clouds and every parameter is the same.
+// True when the two have the same layers, sheets, grids, classical and hero clouds and keyframes and every parameter is the
+// same.
 bool sameScene(const Scene& a, const Scene& b);
 
 }  // namespace welkin

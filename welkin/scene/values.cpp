@@ -127,7 +127,7 @@ Parameter findParameter(std::span<const Section> sections, std::string_view path
 }
 
 std::string withListNumber(std::string_view path) {
-  for (const std::string_view list : {"layer.", "sheet.", "grid.", "hero."})
+  for (const std::string_view list : {"layer.", "sheet.", "grid.", "classical.", "hero."})
     if (path.starts_with(list) && path.size() > list.size() && (path[list.size()] < '0' || path[list.size()] > '9'))
       return fmt::format("{}0.{}", list, path.substr(list.size()));
   return std::string(path);
@@ -136,8 +136,10 @@ std::string withListNumber(std::string_view path) {
 std::string unknownParameter(const Scene& scene, std::span<const Section> sections, std::string_view path) {
   const std::size_t dot = path.rfind('.');
   const std::string_view table = dot == std::string_view::npos ? std::string_view() : path.substr(0, dot);
-  for (const auto& [list, size] : {std::pair("layer", scene.layers.size()), std::pair("sheet", scene.sheets.size()),
-                                   std::pair("grid", scene.grids.size()), std::pair("hero", scene.heroes.size())})
+  for (const auto& [list, size] :
+       {std::pair("layer", scene.layers.size()), std::pair("sheet", scene.sheets.size()),
+        std::pair("grid", scene.grids.size()), std::pair("classical", scene.classical.size()),
+        std::pair("hero", scene.heroes.size())})
     if (table.starts_with(fmt::format("{}.", list)) && std::none_of(sections.begin(), sections.end(), [&](auto& s) {
           return table == s.path || table.starts_with(s.path + ".");
         }))
@@ -150,7 +152,7 @@ std::string unknownParameter(const Scene& scene, std::span<const Section> sectio
                      near.empty() ? "; `welkin fields` lists them" : fmt::format("; did you mean '{}'?", near));
 }
 
-void setField(Scene& scene, std::string_view assignment) {
+std::string setField(Scene& scene, std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) refuse(assignment, "write it as key=value, for example sun.elevation=20");
   const std::string path = withListNumber(trimmed(assignment.substr(0, equals)));
@@ -160,6 +162,7 @@ void setField(Scene& scene, std::string_view assignment) {
   if (!p.field) refuse(assignment, unknownParameter(scene, sections, path));
   const std::string wrong = assign(scene, *p.section, *p.field, valueFromText(*p.field, text));
   if (!wrong.empty()) refuse(assignment, fmt::format("{} {}", path, wrong));
+  return path;
 }
 
 }  // namespace welkin

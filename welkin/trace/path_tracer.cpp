@@ -65,7 +65,8 @@ struct PathTracer::Baked {
 };
 
 PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const TraceSettings& settings)
-    : baked_(std::make_unique<Baked>()), settings_(settings), seed_(static_cast<std::uint32_t>(scene.seed)) {
+    : baked_(std::make_unique<Baked>()), settings_(settings),
+      seed_(static_cast<std::uint32_t>(scene.seed) + 0x9e3779b9u * static_cast<std::uint32_t>(settings.frame)) {
   if (settings.width < 1 || settings.height < 1 || settings.samples < 1)
     throw Error(ErrorKind::badInput, "", "a traced picture needs at least one pixel and one sample");
   Baked& b = *baked_;

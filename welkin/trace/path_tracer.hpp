@@ -43,6 +43,7 @@ struct TraceSettings {
   int scatterings = 0;  // > 0: paths end at the next scattering after so many, which makes the picture too dark
   double checkpointSeconds = 5.0;  // at least this long between two calls of `checkpoint`
   CloudCacheExtent clouds{};       // how finely the weather is cached
+  int frame = 0;                   // of a film: each has noise of its own
 };
 
 // What a scene names in files.
