@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi, kFrame = 1.0 / 60.0;
 const glm::dvec3 kHead(0.25, -0.28, -0.62);  // the pilot's, body axes, m
-constexpr double kChaseDistance = 15.0, kChaseHeight = 3.6;
+constexpr double kChaseDistance = 16.0, kChaseHeight = 3.4;
+// How much lower than the nose, or than ahead, the eyes look: rad.
+constexpr double kHeadLow = 0.06, kChaseLow = 0.2;
 constexpr double kWingTip = 5.5;
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
@@ -96,7 +98,8 @@ Camera Flight::camera(const Camera& camera, const Gaze& gaze) const {
     const glm::dmat3 world = glm::mat3_cast(aircraft_.attitude);
     out.position = aircraft_.position + world * kHead;
     // The head turns in the body's axes.
-    const double cp = std::cos(gaze.pitch), sp = std::sin(gaze.pitch), cy = std::cos(gaze.yaw), sy = std::sin(gaze.yaw);
+    const double up = gaze.pitch - kHeadLow, cp = std::cos(up), sp = std::sin(up);
+    const double cy = std::cos(gaze.yaw), sy = std::sin(gaze.yaw);
     const glm::dmat3 head(glm::dvec3(cp * cy, cp * sy, -sp), glm::dvec3(-sy, cy, 0.0),
                           glm::dvec3(sp * cy, sp * sy, cp));
     Aircraft eye;
@@ -114,7 +117,7 @@ Camera Flight::camera(const Camera& camera, const Gaze& gaze) const {
   const double ground = std::max(terrain_.height(out.position.x, out.position.y), 0.0) + 1.5;
   out.position.z = std::max(out.position.z, ground);
   out.heading = static_cast<float>(wrapped(heading));
-  out.pitch = static_cast<float>(pitch - 0.09);
+  out.pitch = static_cast<float>(pitch - kChaseLow);
   out.roll = 0.0f;
   return out;
 }

@@ -171,7 +171,7 @@ void verticalSpeed(const Dial& d, double climb) {
 }
 
 void lever(ImDrawList* list, const ImVec2& low, const ImVec2& high, double share, ImU32 colour, const char* name) {
-  const float size = std::max(0.16f * (high.y - low.y), 8.0f);
+  const float size = std::max(0.15f * (high.y - low.y), 7.0f);
   const ImVec2 extent = ImGui::GetFont()->CalcTextSizeA(size, 1e6f, 0.0f, name);
   const float foot = high.y - 1.2f * size;
   list->AddRectFilled(low, {high.x, foot}, kFace, 2.0f);
@@ -216,7 +216,7 @@ void drawInstruments(const Flight& flight, const ImVec2& low, const ImVec2& high
   const Aircraft& aircraft = flight.aircraft();
   const Attitude now = attitudeOf(aircraft);
   // Six dials and two levers in a row.
-  const float cell = std::min(width / 7.0f, (inside ? 0.27f : 0.2f) * height), radius = 0.46f * cell;
+  const float cell = std::min(width / 7.0f, (inside ? 0.24f : 0.2f) * height), radius = 0.46f * cell;
   const float middle = high.y - (inside ? 0.58f : 0.54f) * cell;
   if (inside) dashboard(list, low, high, middle - 0.66f * cell);
   float x = 0.5f * (low.x + high.x) - 3.5f * cell + 0.5f * cell;
@@ -233,8 +233,8 @@ void drawInstruments(const Flight& flight, const ImVec2& low, const ImVec2& high
   verticalSpeed(next(), flight.climb());
   const float top = middle - radius, foot = middle + radius, left = x - 0.45f * cell;
   const Controls controls = flight.pilot.controls();
-  lever(list, {left, top}, {left + 0.3f * cell, foot}, static_cast<double>(controls.throttle), kGreen, "POWER");
-  lever(list, {left + 0.45f * cell, top}, {left + 0.75f * cell, foot}, aircraft.flaps, kSky, "FLAPS");
+  lever(list, {left, top}, {left + 0.3f * cell, foot}, static_cast<double>(controls.throttle), kGreen, "PWR");
+  lever(list, {left + 0.45f * cell, top}, {left + 0.75f * cell, foot}, aircraft.flaps, kSky, "FLAP");
 
   const float size = std::max(0.05f * height, 11.0f);
   ImVec2 at(0.5f * (low.x + high.x), low.y + 0.12f * height);

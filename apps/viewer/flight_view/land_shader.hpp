@@ -169,7 +169,7 @@ void main() {
     vec3 normal = normalize(vec3(-land.yz - even * mix(0.035, 0.3, wild) * detail.xy, 1.0));
     float tree = land.w + 0.35 * detail.z;
     vec3 colour = fields(p, pixel) * (1.0 + 0.25 * detail.z);
-    vec3 wood = vec3(0.022, 0.036, 0.014) * (1.0 + 0.8 * detail.z);
+    vec3 wood = vec3(0.024, 0.038, 0.015) * (1.0 + 0.5 * detail.z);
     vec3 grass = vec3(0.07, 0.085, 0.032) * (1.0 + 0.35 * detail.z);
     vec3 heath = vec3(0.105, 0.095, 0.055) * (1.0 + 0.35 * detail.z);
     colour = mix(colour, grass, smoothstep(0.05, 0.16, steep + 0.03 * detail.z) * 0.9);
@@ -187,7 +187,7 @@ void main() {
     vec2 paved = smoothstep(vec2(0.5 * pixel), vec2(-0.5 * pixel), abs(at) - uRunway.zw);
     float old = 0.9 + 0.25 * detail.z - 0.25 * smoothstep(9.0, 2.0, abs(abs(at.y) - 3.5)) *
                                            smoothstep(250.0, 400.0, abs(at.x)) * smoothstep(700.0, 500.0, abs(at.x));
-    vec3 tarmac = mix(vec3(0.065, 0.064, 0.062) * old, vec3(0.55), markings(at, uRunway.zw, pixel));
+    vec3 tarmac = mix(vec3(0.09, 0.088, 0.085) * old, vec3(0.55), markings(at, uRunway.zw, pixel));
     colour = mix(colour, tarmac, paved.x * paved.y);
     vec3 irradiance = light.sun * max(dot(normal, light.toSun), 0.0) + light.sky * (0.5 + 0.5 * normal.z);
     ground = max(colour, vec3(0.0)) * irradiance / kPi;

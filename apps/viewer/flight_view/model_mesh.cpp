@@ -11,8 +11,8 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-// A lattice of points, wound so that its triangles face outward when `u` runs round counter-clockwise as seen from
-// smaller v; normals are those of the neighbours' differences. Rows are closed.
+// Closed rows of points, one behind the other; normals by the differences of neighbours, `flip` where they would point
+// inward.
 void addTube(ModelMesh& mesh, Part part, const std::vector<std::vector<glm::vec3>>& rows, bool flip) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   const std::size_t n = rows.front().size();
@@ -20,7 +20,7 @@ void addTube(ModelMesh& mesh, Part part, const std::vector<std::vector<glm::vec3
     for (std::size_t i = 0; i < n; ++i) {
       const glm::vec3 round = rows[r][(i + 1) % n] - rows[r][(i + n - 1) % n];
       const glm::vec3 along = rows[std::min(r + 1, rows.size() - 1)][i] - rows[r > 0 ? r - 1 : 0][i];
-      glm::vec3 normal = glm::cross(round, along);
+      glm::vec3 normal = glm::cross(along, round);
       const float size = glm::length(normal);
       normal = size > 1e-9f ? normal / size : glm::vec3(0.0f, 0.0f, -1.0f);
       mesh.vertices.push_back({rows[r][i], flip ? -normal : normal, static_cast<float>(part)});
@@ -125,7 +125,7 @@ void addRod(ModelMesh& mesh, Part part, const glm::vec3& from, const glm::vec3& 
     rows[0].push_back(from + out);
     rows[1].push_back(to + out);
   }
-  addTube(mesh, part, rows, false);
+  addTube(mesh, part, rows, true);
   addCap(mesh, part, rows[0], -along);
   addCap(mesh, part, rows[1], along);
 }

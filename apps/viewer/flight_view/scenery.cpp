@@ -88,7 +88,6 @@ void main() {
   if (uInside > 0.5 && vPart == 0 && vModel.x < 0.93) discard;
   vec3 toEye = normalize(-vFromEye);
   vec3 normal = normalize(vNormal);
-  if (dot(normal, toEye) < 0.0 && vPart < 7) normal = reflect(normal, toEye);
   vec4 paint = paintOf(vModel);
   WelkinLight light = welkinLight(vFromEye);
   float up = 0.5 + 0.5 * normal.z;
