@@ -15,9 +15,10 @@ void addCheck(CLI::App& app) {
     const auto counted = [](std::size_t n, const char* what) {
       return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
     };
-    fmt::print("{}: a sky of {} and {}{}\n", arguments->sky, counted(scene.layers.size(), "layer"),
+    fmt::print("{}: a sky of {} and {}{}{}\n", arguments->sky, counted(scene.layers.size(), "layer"),
                counted(scene.sheets.size(), "sheet"),
-               scene.grids.empty() ? "" : " and " + counted(loadGrids(scene).size(), "grid"));
+               scene.grids.empty() ? "" : " and " + counted(loadGrids(scene).size(), "grid"),
+               scene.heroes.empty() ? "" : " and " + counted(scene.heroes.size(), "hero cloud"));
   });
 }
 

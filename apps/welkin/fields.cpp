@@ -66,7 +66,7 @@ std::string limits(const Field& f) {
 void printText(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     const std::string table = tableName(section.path);
-    const bool list = table == "layer" || table == "sheet" || table == "grid";
+    const bool list = table == "layer" || table == "sheet" || table == "grid" || table == "hero";
     fmt::print("{}  {}\n",
                table.empty() ? "(top level)"
                : list        ? fmt::format("[[{}]]", table)
@@ -115,6 +115,7 @@ void addFields(CLI::App& app) {
     Scene scene;
     scene.sheets.emplace_back();
     scene.grids.emplace_back();
+    scene.heroes.emplace_back();
     const std::vector<Section> sections = sectionsOf(scene);
     if (*json)
       printJson(sections);

@@ -61,6 +61,7 @@ void hdri(const HdriArguments& arguments) {
     scene.layers.clear();
     scene.sheets.clear();
     scene.grids.clear();
+    scene.heroes.clear();
   }
   EnvironmentOptions options{.size = arguments.size, .frames = arguments.frames};
   options.sun = parseSun(arguments.sun, arguments.output.ends_with(".hdr"));

@@ -1,4 +1,4 @@
-// welkin info: cover, base, top and optical depth of every layer and sheet.
+// welkin info: cover, base, top and optical depth of every layer, sheet and hero cloud.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -45,9 +45,18 @@ Json describe(const Scene& scene, const SkyStatistics& sky) {
     addDepths(row, sky.sheets[i]);
     sheets.push_back(std::move(row));
   }
+  Json heroes = Json::array();
+  for (std::size_t i = 0; i < scene.heroes.size(); ++i) {
+    const CloudColumn& middle = sky.heroes[i];
+    heroes.push_back({{"species", nameOf(scene.heroes[i].cloud.species)},
+                      {"base", std::round(middle.base)},
+                      {"top", std::round(middle.top)},
+                      {"optical_depth", rounded(middle.opticalDepth, 4)}});
+  }
   return {{"title", scene.title},
           {"layers", layers},
           {"sheets", sheets},
+          {"heroes", heroes},
           {"cloudy_above", {{"layer", kCloudyLayer}, {"sheet", kCloudySheet}}}};
 }
 
@@ -64,6 +73,10 @@ void printTable(const Scene& scene, const SkyStatistics& sky) {
     printRow(fmt::format("layer {}", i), nameOf(scene.layers[i].cloud.genus), sky.layers[i]);
   for (std::size_t i = 0; i < sky.sheets.size(); ++i)
     printRow(fmt::format("sheet {}", i), nameOf(scene.sheets[i].kind), sky.sheets[i]);
+  for (std::size_t i = 0; i < sky.heroes.size(); ++i)
+    fmt::print("{:<8} {:<20} {:>7.0f} {:>7.0f} {:>9.3g} over its middle\n", fmt::format("hero {}", i),
+               nameOf(scene.heroes[i].cloud.species), sky.heroes[i].base, sky.heroes[i].top,
+               sky.heroes[i].opticalDepth);
   fmt::print(
       "\nCloudy columns are those with a vertical optical depth over {} (layers) or {} (sheets). 2 % of them begin\n"
       "below the base, 2 % end above the top. Area: mean over all columns; in cloud, median: over cloudy ones.\n",
@@ -73,7 +86,7 @@ void printTable(const Scene& scene, const SkyStatistics& sky) {
 }  // namespace
 
 void addInfo(CLI::App& app) {
-  auto* command = app.add_subcommand("info", "cover, base, top and optical depth of every layer and sheet");
+  auto* command = app.add_subcommand("info", "cover, base, top and optical depth of every layer, sheet and hero cloud");
   auto arguments = std::make_shared<SkyArguments>();
   arguments->addTo(*command, SkyArguments::Need::optional);
   const auto json = addJsonFlag(*command);

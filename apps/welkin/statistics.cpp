@@ -15,6 +15,8 @@ constexpr double kPatterns = 12.0, kFrontClusters = 4.0;
 constexpr double kSheetEdge = 200000.0;          // m; the patches of every sheet are 16 km x 9 km
 constexpr double kStep = 15.0, kThinSteps = 64;  // m; at least so many steps through a thin layer
 constexpr double kTail = 0.02;
+constexpr int kHeroSteps = 1000;
+constexpr float kHeroCloud = 0.002f;  // share of its extinction that counts as cloud; an anvil has 0.015, by choice
 
 // One jittered place in each cell of a square grid.
 std::vector<glm::dvec2> stratifiedPlaces(const glm::dvec2& centre, double edge) {
@@ -48,6 +50,30 @@ glm::dvec2 middleOf(const Layer& layer, const Scene& scene) {
   const glm::dvec2 across(std::cos(w.orientation), -std::sin(w.orientation));
   const glm::dvec2 moved = driftOffset({scene.wind.speed, scene.wind.from, scene.time});
   return camera - across * glm::dot(camera - moved, across);
+}
+
+// The column over the middle of a hero cloud's box, without other clouds.
+CloudColumn middleOf(const Hero& hero, const Scene& scene) {
+  const DensityField field(
+      {.drift = {scene.wind.speed, scene.wind.from, scene.time}, .seed = scene.seed, .heroes = std::span(&hero, 1)});
+  const HeroBody& body = field.heroes().front();
+  const double bottom = body.lowest().z, step = (body.highest().z - bottom) / kHeroSteps;
+  std::vector<glm::dvec3> points;
+  points.reserve(kHeroSteps);
+  for (int i = 0; i < kHeroSteps; ++i)
+    points.emplace_back(0.5 * glm::dvec2(body.lowest() + body.highest()), bottom + (i + 0.5) * step);
+  CloudColumn column;
+  double sum = 0.0;
+  for (std::size_t i = 0; const float sigma : field.extinction(points)) {
+    sum += sigma;
+    if (sigma > kHeroCloud * hero.cloud.extinction) {
+      if (column.top == 0.0f) column.base = static_cast<float>(points[i].z - 0.5 * step);
+      column.top = static_cast<float>(points[i].z + 0.5 * step);
+    }
+    ++i;
+  }
+  column.opticalDepth = static_cast<float>(sum * step);
+  return column;
 }
 
 double quantile(std::vector<double>& values, double share) {
@@ -90,6 +116,7 @@ DensityField densityField(const Scene& scene) {
                        .drift = {scene.wind.speed, scene.wind.from, scene.time},
                        .seed = scene.seed,
                        .grids = grids,
+                       .heroes = scene.heroes,
                        .weatherMaps = maps});
 }
 
@@ -112,6 +139,7 @@ SkyStatistics measureSky(const Scene& scene) {
     s.base = s.top = height;
     sky.sheets.push_back(s);
   }
+  for (const Hero& hero : scene.heroes) sky.heroes.push_back(middleOf(hero, scene));
   return sky;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What layers and sheets amount to, measured on the field itself.
+// What layers, sheets and hero clouds amount to, measured on the field itself.
 #include <cstddef>
 #include <vector>
 
@@ -22,6 +22,7 @@ struct CloudStatistics {
 
 struct SkyStatistics {
   std::vector<CloudStatistics> layers, sheets;
+  std::vector<CloudColumn> heroes;  // over the middle of each
 };
 
 // Over a few thousand stratified columns at the scene's time. They cover twelve of a layer's largest patterns in each

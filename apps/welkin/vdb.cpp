@@ -265,8 +265,8 @@ void addVdb(CLI::App& app) {
   command
       ->add_option(
           "--region", a->region,
-          "metres: west,south,east,north[,bottom,top], rounded to bricks of 8 voxels; 6 km round the camera and "
-          "the height of the layers if not given")
+          "metres: west,south,east,north[,bottom,top], rounded to bricks of 8 voxels; if not given 6 km round the "
+          "camera and the height of the clouds, or in a sky without layers the box of its hero clouds")
       ->type_name("BOX");
   command->add_option("--voxel", a->voxel, "edge of a voxel in metres")
       ->type_name("M")

@@ -18,6 +18,7 @@ constexpr double kWaterDensity = 1e6;  // g/m^3
 // Of large droplets (Bohren and Huffman 1983, ch. 4.4.3): twice their cross section.
 constexpr double kExtinctionEfficiency = 2.0;
 constexpr double kFarthest = 1e7;  // m
+constexpr int kFewCells = 1000;    // of a hero cloud's shape, where its box alone is asked for
 
 std::vector<double> numbersOf(const std::string& text) {
   std::vector<double> numbers;
@@ -38,13 +39,19 @@ std::vector<double> numbersOf(const std::string& text) {
 double extinctionAtOne(const Scene& scene, VolumeDensity density) {
   double most = 0.0;
   for (const Layer& layer : scene.layers) most = std::max(most, static_cast<double>(layer.cloud.extinction));
+  for (const Hero& hero : scene.heroes) {
+    const bool classic = hero.form.shape == HeroShape::classic;
+    most = std::max(most, static_cast<double>(hero.cloud.extinction * (classic ? hero.classic.density : 1.0f)));
+  }
   if (most == 0.0)
     throw Error(ErrorKind::badInput, "",
-                "this sky has no layers with extinction: there is nothing to put into a volume");
+                "this sky has no layers or hero clouds with extinction: there is nothing to put into a volume");
   if (density == VolumeDensity::normalized) return most;
   if (density == VolumeDensity::extinction) return 1.0;
   // Extinction of droplets: Q 3 LWC / (4 density r).
-  const double radius = 0.5e-6 * scene.layers.front().cloud.dropletDiameter;
+  const float diameter =
+      scene.layers.empty() ? scene.heroes.front().cloud.dropletDiameter : scene.layers.front().cloud.dropletDiameter;
+  const double radius = 0.5e-6 * diameter;
   return 0.75 * kExtinctionEfficiency / (kWaterDensity * radius);
 }
 
@@ -57,6 +64,16 @@ Region regionOf(const std::string& text, const Scene& scene, double voxel) {
     const Shell shell = shellOf(layer);
     region.low.z = std::min(region.low.z, static_cast<double>(shell.bottom));
     region.high.z = std::max(region.high.z, static_cast<double>(shell.top));
+  }
+  if (scene.layers.empty() && !scene.heroes.empty()) region = {glm::dvec3(1e9), glm::dvec3(-1e9)};
+  for (const Hero& hero : scene.heroes) {
+    const HeroBody body = bakeHero(hero, {scene.wind.speed, scene.wind.from, scene.time}, scene.seed, kFewCells);
+    if (scene.layers.empty()) {
+      region.low = glm::min(region.low, body.lowest());
+      region.high = glm::max(region.high, body.highest());
+    }
+    region.low.z = std::min(region.low.z, body.lowest().z);
+    region.high.z = std::max(region.high.z, body.highest().z);
   }
   if (!text.empty()) {
     const std::vector<double> n = numbersOf(text);

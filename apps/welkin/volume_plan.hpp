@@ -10,7 +10,8 @@ namespace welkin::app {
 
 enum class VolumeUp { z, y };
 enum class VolumeUnit { m, cm };
-// What a value means. normalized: 1 is the largest extinction that a layer of the sky names. extinction: in 1/m. lwc:
+// What a value means. normalized: 1 is the largest extinction that a layer or hero cloud of the sky
+// names. extinction: in 1/m. lwc:
 // liquid water in g/m^3, of droplets twice as wide as their effective radius.
 enum class VolumeDensity { normalized, extinction, lwc };
 
@@ -31,8 +32,9 @@ struct Region {
   glm::dvec3 low, high;
 };
 
-// Reads "west,south,east,north[,bottom,top]"; without heights those of the sky's layers. Empty: `kDefaultEdge` round
-// the camera. Rounded outward to bricks of voxels, so that neighbouring files fit together.
+// Reads "west,south,east,north[,bottom,top]"; without heights those of the sky's clouds. Empty: `kDefaultEdge` round
+// the camera, or, in a sky without layers, the box round its hero clouds. Rounded outward to bricks of voxels, so that
+// neighbouring files fit together.
 inline constexpr double kDefaultEdge = 6000.0;  // m, by choice
 Region regionOf(const std::string& text, const Scene& scene, double voxel);
 

@@ -30,9 +30,14 @@ std::string suffixFor(VolumeTarget target) {
 }
 
 VolumeMedium mediumOf(const Scene& scene, VolumeDensity density) {
-  // One medium for all layers: the first one's droplets.
+  // One medium for all clouds: the droplets of the first layer, or else of the first hero cloud.
+  const double extinction = extinctionAtOne(scene, density);
+  if (scene.layers.empty()) {
+    const HeroCloud& cloud = scene.heroes.front().cloud;
+    return {extinction, cloud.albedo, meanCosine(phaseOf(cloud))};
+  }
   const CloudLayer& cloud = scene.layers.front().cloud;
-  return {extinctionAtOne(scene, density), cloud.albedo, meanCosine(phaseOf(cloud))};
+  return {extinction, cloud.albedo, meanCosine(phaseOf(cloud))};
 }
 
 std::string instructionsFor(std::optional<VolumeTarget> target, const VolumeMedium& medium,

@@ -96,6 +96,7 @@ TEST(Command, FieldsListEveryParameter) {
   Scene scene;
   scene.sheets.emplace_back();
   scene.grids.emplace_back();
+  scene.heroes.emplace_back();
   const json fields = json::parse(run("fields --json").out);
   std::size_t expected = 0;
   for (const Section& s : sectionsOf(scene)) expected += s.fields.size();

@@ -67,7 +67,7 @@ TEST(Presets, ArePhysicallyPlausible) {
     ASSERT_EQ(o.code, 0) << file << ": " << o.err;
     const json report = json::parse(o.out);
     const double factor = statedFactor(slurp(file));
-    EXPECT_GT(report["layers"].size() + report["sheets"].size(), 0u) << file;
+    EXPECT_GT(report["layers"].size() + report["sheets"].size() + report["heroes"].size(), 0u) << file;
     for (const char* kind : {"layers", "sheets"})
       for (const json& row : report[kind]) {
         SCOPED_TRACE(file.filename().string() + ": " + row.dump());

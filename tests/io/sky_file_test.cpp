@@ -50,6 +50,19 @@ TEST(SkyFile, OtherQualityKeysWinOverThePreset) {
   EXPECT_EQ(s.quality, expected);
 }
 
+TEST(SkyFile, OtherHeroKeysWinOverTheSpecies) {
+  const Scene s = parseSky(
+      "format = 1\n[[hero]]\nextinction = 0.07\nspecies = \"incus\"\n[hero.form]\nanvil = 7000\n[[hero]]\n", "x");
+  ASSERT_EQ(s.heroes.size(), 2u);
+  EXPECT_EQ(s.heroes[0].cloud.extinction, 0.07f);
+  EXPECT_EQ(s.heroes[0].form.anvil, 7000.0f);
+  EXPECT_EQ(s.heroes[0].form.height, heroPreset(HeroSpecies::incus).form.height);
+  EXPECT_TRUE(s.layers.empty());
+  EXPECT_EQ(writeSky(s),
+            "format = 1\n\n[[hero]]\nspecies = \"incus\"\nextinction = 0.07\n\n[hero.form]\nanvil = 7000.0\n\n"
+            "[[hero]]\n");
+}
+
 TEST(SkyFile, WritesOnlyWhatDiffers) {
   Scene s;
   s.title = "Evening";
@@ -182,6 +195,8 @@ TEST(SkyFile, TheExampleOfTheDocsIsRight) {
   EXPECT_EQ(scene.layers.at(0).profile.erosion, 0.9f);
   EXPECT_EQ(scene.sheets.size(), 1u);
   EXPECT_EQ(scene.grids.size(), 1u);
+  ASSERT_EQ(scene.heroes.size(), 1u);
+  EXPECT_EQ(scene.heroes[0].surface.edge, 20.0f);
 }
 
 TEST(SkyFile, AMissingFileIsBadInput) {

@@ -52,9 +52,11 @@ inline Scene randomScene(unsigned seed, double share = 0.5) {
     for (const Field& f : section.fields)
       if (between(random, 0, 1) < share) assign(scene, section, f, randomValue(f, random));
   scene.grids.resize(random() % (kMaxGrids + 1));
+  scene.heroes.resize(random() % 3);
   for (const Section& section : sectionsOf(scene))
     for (const Field& f : section.fields)
-      if (section.path.starts_with("grid.")) assign(scene, section, f, randomValue(f, random));
+      if (section.path.starts_with("grid.") || section.path.starts_with("hero."))
+        assign(scene, section, f, randomValue(f, random));
   return scene;
 }
 

@@ -15,6 +15,7 @@ Scene fullScene() {
   Scene scene;
   scene.layers.resize(2);
   scene.sheets.resize(1);
+  scene.heroes.resize(1);
   return scene;
 }
 

@@ -294,6 +294,12 @@ HWY_INLINE Vec4 texelAt(const TextureView& s, Int index) {
   return t;
 }
 
+// One channel alone, which costs a fourth of the arithmetic.
+HWY_INLINE Real bilinear1(const TextureView& s, Int x0, Int x1, Int row0, Int row1, Real wx, Real wy) {
+  return mix(mix(gather(s.texels, row0 + x0), gather(s.texels, row0 + x1), wx),
+             mix(gather(s.texels, row1 + x0), gather(s.texels, row1 + x1), wx), wy);
+}
+
 HWY_INLINE Vec4 bilinear(const TextureView& s, Int x0, Int x1, Int row0, Int row1, Real wx, Real wy) {
   const Int c(s.channels);
   return mix(mix(texelAt(s, (row0 + x0) * c), texelAt(s, (row0 + x1) * c), wx),
@@ -321,6 +327,10 @@ HWY_INLINE Vec4 sample3(const Sampler3& s, Vec3 p) {
   const Int y0 = wrapIndex(iy, s.height, s.wrapY), y1 = wrapIndex(iy + Int(1), s.height, s.wrapY);
   const Int z0 = wrapIndex(iz, s.depth, s.wrap) * h, z1 = wrapIndex(iz + Int(1), s.depth, s.wrap) * h;
   const Real wx = x - fx, wy = y - fy;
+  if (s.channels == 1)
+    return Vec4(mix(bilinear1(s, x0, x1, (z0 + y0) * w, (z0 + y1) * w, wx, wy),
+                    bilinear1(s, x0, x1, (z1 + y0) * w, (z1 + y1) * w, wx, wy), z - fz),
+                0.0f, 0.0f, 1.0f);
   return mix(bilinear(s, x0, x1, (z0 + y0) * w, (z0 + y1) * w, wx, wy),
              bilinear(s, x0, x1, (z1 + y0) * w, (z1 + y1) * w, wx, wy), z - fz);
 }

@@ -24,19 +24,20 @@ TexelBounds::TexelBounds(const TextureView& t, int channel, Kind kind) : kind_(k
   // A texture that repeats can be halved only while its edges are even.
   const auto halves = [&](const Mip& m) {
     if (kind == Kind::volume) return m.width % 2 == 0 && m.height % 2 == 0 && m.depth % 2 == 0;
-    return std::max(m.width, m.height) > 1;
+    return std::max({m.width, m.height, kind == Kind::box ? m.depth : 1}) > 1;
   };
+  const bool deep = kind != Kind::planes;
   while (halves(mips_.back())) {
     const Mip& fine = mips_.back();
     const auto half = [](int n) { return (n + 1) / 2; };
-    Mip coarse{half(fine.width), half(fine.height), kind == Kind::volume ? half(fine.depth) : fine.depth, {}};
+    Mip coarse{half(fine.width), half(fine.height), deep ? half(fine.depth) : fine.depth, {}};
     coarse.cells.resize(static_cast<std::size_t>(coarse.width) * coarse.height * coarse.depth);
     parallelFor(static_cast<std::size_t>(coarse.depth), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t z = begin; z < end; ++z)
         for (int y = 0; y < coarse.height; ++y)
           for (int x = 0; x < coarse.width; ++x) {
-            const int z0 = kind == Kind::volume ? 2 * static_cast<int>(z) : static_cast<int>(z);
-            const int z1 = kind == Kind::volume ? std::min(z0 + 1, fine.depth - 1) : z0;
+            const int z0 = deep ? 2 * static_cast<int>(z) : static_cast<int>(z);
+            const int z1 = deep ? std::min(z0 + 1, fine.depth - 1) : z0;
             Interval r{INFINITY, -INFINITY};
             for (int k = z0; k <= z1; ++k)
               for (int j = 2 * y; j <= std::min(2 * y + 1, fine.height - 1); ++j)
@@ -55,7 +56,7 @@ Interval TexelBounds::between(const glm::vec3& low, const glm::vec3& high) const
   // Filtering reaches half a texel further, and rounding a little more.
   const glm::vec3 from = low - 0.51f, to = high + 0.51f;
   const glm::vec3 size = to - from;
-  const float widest = std::max({size.x, size.y, kind_ == Kind::volume ? size.z : 0.0f});
+  const float widest = std::max({size.x, size.y, kind_ != Kind::planes ? size.z : 0.0f});
   const int wanted = std::max(0, static_cast<int>(std::ceil(std::log2(std::max(widest, 1.0f) / (kMostCells - 1)))));
   const std::size_t level = std::min(static_cast<std::size_t>(wanted), mips_.size() - 1);
   const Mip& mip = mips_[level];
@@ -75,8 +76,8 @@ Interval TexelBounds::between(const glm::vec3& low, const glm::vec3& high) const
       });
     });
   };
-  if (volume)
-    each(first(from.z), first(to.z), mip.depth, true, plane);
+  if (kind_ != Kind::planes)
+    each(first(from.z), first(to.z), mip.depth, volume, plane);
   else
     plane(static_cast<int>(low.z));
   return range;

@@ -7,6 +7,7 @@
 #include "welkin/base/error.hpp"
 #include "welkin/base/parallel.hpp"
 #include "welkin/density/bounds.hpp"
+#include "welkin/density/hero_bounds.hpp"
 
 namespace welkin {
 
@@ -322,16 +323,16 @@ CachedGrid cachedGrid(const PlacedGrid& grid, const glm::dvec3& anchor) {
   return cached;
 }
 
-// Where the levels stand and how many there are: round the anchor as far as the weather is known, or, where grids are
-// all there is, round those.
-void placeLevels(Majorants& m, const CloudCache& cache, const WorldBox& grids, const CloudCacheExtent& extent) {
+// Where the levels stand and how many there are: round the anchor as far as the weather is known, or, where grids and
+// hero clouds are all there is, round those.
+void placeLevels(Majorants& m, const CloudCache& cache, const WorldBox& solids, const CloudCacheExtent& extent) {
   double cell = extent.finestCell, reach = 0.5 * extent.weather.edge(extent.weather.levels - 1);
   if (cache.layers.empty()) {
-    m.centre = glm::vec2(0.5 * (grids.low + grids.high));
-    reach = 1.0 + 0.5 * std::max(grids.high.x - grids.low.x, grids.high.y - grids.low.y);
+    m.centre = glm::vec2(0.5 * (solids.low + solids.high));
+    reach = 1.0 + 0.5 * std::max(solids.high.x - solids.low.x, solids.high.y - solids.low.y);
     cell = 2.0 * reach / extent.cells;
-  } else if (!cache.grids.empty()) {
-    for (const double edge : {grids.low.x, grids.low.y, grids.high.x, grids.high.y})
+  } else if (!cache.grids.empty() || !cache.heroes.empty()) {
+    for (const double edge : {solids.low.x, solids.low.y, solids.high.x, solids.high.y})
       reach = std::max(reach, std::abs(edge));
   }
   const std::size_t plane = static_cast<std::size_t>(extent.cells) * extent.cells;
@@ -349,9 +350,9 @@ void placeLevels(Majorants& m, const CloudCache& cache, const WorldBox& grids, c
   }
 }
 
-Majorants bakeMajorants(const CloudCache& cache, const WorldBox& gridBox, const CloudCacheExtent& extent) {
+Majorants bakeMajorants(const CloudCache& cache, const WorldBox& solids, const CloudCacheExtent& extent) {
   Majorants m;
-  if (cache.layers.empty() && cache.grids.empty()) return m;
+  if (cache.layers.empty() && cache.grids.empty() && cache.heroes.empty()) return m;
   m.bottom = INFINITY, m.top = -INFINITY;
   std::vector<LayerBounds> layers;
   for (std::size_t i = 0; i < cache.layers.size(); ++i) {
@@ -362,13 +363,18 @@ Majorants bakeMajorants(const CloudCache& cache, const WorldBox& gridBox, const 
   }
   std::vector<GridBounds> grids;
   for (const CachedGrid& grid : cache.grids) grids.emplace_back(grid);
-  if (!grids.empty()) {
-    m.bottom = std::min(m.bottom, static_cast<float>(gridBox.low.z));
-    m.top = std::max(m.top, static_cast<float>(gridBox.high.z));
+  std::optional<TexelBounds> billows;
+  if (!cache.heroes.empty()) billows.emplace(cache.noise.heroBillows.view(), 0, TexelBounds::Kind::volume);
+  std::vector<HeroBounds> heroes;
+  for (const CachedHero& hero : cache.heroes)
+    heroes.emplace_back(hero.params, *hero.body.parts, hero.body.shapeView(), *billows);
+  if (!grids.empty() || !heroes.empty()) {
+    m.bottom = std::min(m.bottom, static_cast<float>(solids.low.z));
+    m.top = std::max(m.top, static_cast<float>(solids.high.z));
   }
   m.bottom -= kSlack;
   m.top += kSlack;
-  placeLevels(m, cache, gridBox, extent);
+  placeLevels(m, cache, solids, extent);
   for (const MajorantLevel& level : m.levels) {
     const std::size_t plane = static_cast<std::size_t>(level.n) * level.n;
     parallelFor(plane, 16, [&](std::size_t begin, std::size_t end) {
@@ -379,6 +385,11 @@ Majorants bakeMajorants(const CloudCache& cache, const WorldBox& gridBox, const 
         for (const GridBounds& grid : grids)
           for (int k = 0; k < level.layers; ++k)
             sums[static_cast<std::size_t>(k)] += grid.extinctionIn(boxOf(level, at, k, k + 1));
+        for (const HeroBounds& hero : heroes)
+          for (int k = 0; k < level.layers; ++k) {
+            const Box box = boxOf(level, at, k, k + 1);
+            sums[static_cast<std::size_t>(k)] += hero.extinctionIn(box.low, box.high);
+          }
         for (std::size_t k = 0; k < sums.size(); ++k)
           m.bounds[level.offset + k * plane + at] = sums[k] * 1.0001f;  // rounding
       }
@@ -410,6 +421,13 @@ CloudCache bakeCloudCache(const DensityParts& parts, const DensityTextures& text
     box.low = glm::min(box.low, b.low - ground);
     box.high = glm::max(box.high, b.high - ground);
   }
+  for (const Hero& hero : parts.heroes) {
+    HeroBody body = bakeHero(hero, parts.drift, parts.seed);
+    const glm::dvec3 ground(anchor.x, anchor.y, 0.0);
+    box.low = glm::min(box.low, body.lowest() - ground);
+    box.high = glm::max(box.high, body.highest() - ground);
+    cache.heroes.push_back({body.paramsAt(glm::dvec2(anchor)), std::move(body)});
+  }
   cache.majorants = bakeMajorants(cache, box, extent);
   return cache;
 }
@@ -432,6 +450,9 @@ float extinctionIn(const CloudCache& cache, const glm::vec3& point) {
     const glm::dvec3 voxel(glm::dot(grid.rows[0], p), glm::dot(grid.rows[1], p), glm::dot(grid.rows[2], p));
     sum += grid.extinction * v.interpolate(v.origin() + (voxel + 0.5) * v.voxel());
   }
+  for (const CachedHero& hero : cache.heroes)
+    sum += law::heroExtinction(point, 0.0f, hero.params, *hero.body.parts, hero.body.shapeView(),
+                               cache.noise.heroBillows.view());
   return sum;
 }
 

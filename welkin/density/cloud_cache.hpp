@@ -20,10 +20,10 @@ struct MajorantLevel {
   std::size_t offset = 0;
 };
 
-// Upper bounds of the extinction (1/m) of all layers and grids together, in nested squares round a centre, finest
-// first, each twice as wide as the one before. Outside them there is no cloud.
+// Upper bounds of the extinction (1/m) of all layers, grids and hero clouds together, in nested squares round a centre,
+// finest first, each twice as wide as the one before. Outside them there is no cloud.
 struct Majorants {
-  glm::vec2 centre{0.0f};           // the anchor, or the middle of the grids where there is nothing else
+  glm::vec2 centre{0.0f};           // the anchor, or the middle of grids and hero clouds where there is no layer
   float bottom = 0.0f, top = 0.0f;  // altitudes that hold all cloud, m
   std::vector<MajorantLevel> levels;
   std::vector<float> bounds;
@@ -36,10 +36,17 @@ struct CachedGrid {
   float extinction = 1.0f;  // 1/m, of the value 1
 };
 
+// A hero cloud seen from the anchor.
+struct CachedHero {
+  law::HeroParams params;
+  HeroBody body;
+};
+
 struct CloudCache {
   std::vector<law::LayerParams> layers;
   std::vector<law::SheetParams> sheets;
   std::vector<CachedGrid> grids;
+  std::vector<CachedHero> heroes;
   WeatherCache weather;
   DensityTextures noise;
   Majorants majorants;

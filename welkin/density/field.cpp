@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "welkin/base/error.hpp"
@@ -95,18 +96,27 @@ DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures t
     make(textures.nubisDetail, [&] { return bakeDetailPacked(n.detail); });
     make(textures.curl, [&] { return bakeCurl(n.curl); });
   }
+  if (!parts.heroes.empty()) make(textures.heroBillows, [] { return bakeHeroBillows(); });
   return textures;
 }
 
 DensityField::DensityField(const DensityParts& parts, DensityTextures textures)
     : layers_(parts.layers.begin(), parts.layers.end()), sheets_(parts.sheets.begin(), parts.sheets.end()),
-      grids_(parts.grids.begin(), parts.grids.end()), maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()),
-      drift_(parts.drift), seed_(parts.seed), textures_(bakeDensityTextures(parts, std::move(textures))) {
+      grids_(parts.grids.begin(), parts.grids.end()), heroes_(parts.heroes.begin(), parts.heroes.end()),
+      maps_(parts.weatherMaps.begin(), parts.weatherMaps.end()), drift_(parts.drift), seed_(parts.seed),
+      textures_(bakeDensityTextures(parts, std::move(textures))) {
   maps_.resize(layers_.size());
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     authoringMap(layers_[i], &maps_[i]);
     roundToHalf(maps_[i]);
   }
+  setDrift(drift_);
+}
+
+void DensityField::setDrift(const Drift& drift) {
+  drift_ = drift;
+  bodies_.clear();
+  for (const Hero& hero : heroes_) bodies_.push_back(bakeHero(hero, drift, seed_));
 }
 
 void DensityField::addLayer(std::size_t index, std::span<const glm::dvec3> points, float footprint,
@@ -130,6 +140,30 @@ void DensityField::addLayer(std::size_t index, std::span<const glm::dvec3> point
   });
 }
 
+void DensityField::addHeroes(std::span<const glm::dvec3> points, float footprint, std::span<float> sum) const {
+  if (bodies_.empty()) return;
+  const std::vector<Run> runs = blocksOf(points.size(), [&](std::size_t i) { return glm::dvec2(points[i]); });
+  parallelFor(runs.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) {
+      const Run& run = runs[r];
+      glm::dvec3 low(points[run.begin]), high(low);
+      for (std::size_t i = run.begin; i < run.end; ++i) {
+        low = glm::min(low, points[i]);
+        high = glm::max(high, points[i]);
+      }
+      std::optional<Planes> planes;
+      for (const HeroBody& body : bodies_) {
+        if (glm::any(glm::lessThan(high, body.lowest())) || glm::any(glm::greaterThan(low, body.highest()))) continue;
+        if (!planes) planes.emplace(run, [&](std::size_t i) { return points[i]; });
+        kernels::heroExtinction(body.paramsAt(run.anchor), *body.parts,
+                                {body.shapeView(), textures_.heroBillows.view()}, footprint, planes->points(),
+                                planes->answers());
+        for (std::size_t i = run.begin; i < run.end; ++i) sum[i] += planes->answers()[i - run.begin];
+      }
+    }
+  });
+}
+
 void DensityField::addGrids(std::span<const glm::dvec3> points, std::span<float> sum) const {
   for (const PlacedGrid& grid : grids_)
     parallelFor(points.size(), kBlock, [&](std::size_t begin, std::size_t end) {
@@ -148,6 +182,7 @@ std::vector<float> DensityField::extinction(std::span<const glm::dvec3> points, 
   std::vector<float> sum(points.size());
   for (std::size_t i = 0; i < layers_.size(); ++i) addLayer(i, points, footprint, sum);
   addGrids(points, sum);
+  addHeroes(points, footprint, sum);
   return sum;
 }
 
@@ -174,6 +209,7 @@ double DensityField::opticalDepthToward(const glm::dvec3& point, const glm::dvec
   };
   for (const Layer& layer : layers_) include(shellOf(layer).bottom, shellOf(layer).top);
   for (const PlacedGrid& grid : grids_) include(boundsOf(grid).low.z, boundsOf(grid).high.z);
+  for (const HeroBody& body : bodies_) include(body.lowest().z, body.highest().z);
   // From the planet's centre. The ray crosses altitude h at -b -+ sqrt(b^2 + (R + h)^2 - |start|^2).
   const double radius = kPlanetRadius + point.z;
   const glm::dvec3 start(point.x, point.y,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "welkin/density/grid_cloud.hpp"
+#include "welkin/density/hero_body.hpp"
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/density/params.hpp"
 #include "welkin/noise/volume.hpp"
@@ -21,17 +22,18 @@ struct DensityParts {
   Drift drift{};
   int seed = 1;
   std::span<const PlacedGrid> grids{};
+  std::span<const Hero> heroes{};
   std::span<const Volume>
       weatherMaps{};  // one for each layer that names a map, at the layer's index; RGBA, south first
 };
 
 // Textures that replace the baked ones where they are not empty; packed as noise/textures.hpp says.
 struct DensityTextures {
-  Volume profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl;
+  Volume profileBase, profileDetail, profileWarp, nubisBase, nubisDetail, curl, heroBillows;
 };
 
-// The noise that the shapes of these layers need, as half floats hold it; what `given` has already is kept. Throws
-// Error (badInput) for settings out of range.
+// The noise that the shapes of these layers and hero clouds need, as half floats hold it; what `given` has already is
+// kept. Throws Error (badInput) for settings out of range.
 DensityTextures bakeDensityTextures(const DensityParts& parts, DensityTextures given);
 
 // A layer's cloud over one place.
@@ -50,7 +52,7 @@ class DensityField {
   explicit DensityField(const DensityParts& parts, DensityTextures textures = {});
 
   // Goes to another time; not while others ask.
-  void setDrift(const Drift& drift) { drift_ = drift; }
+  void setDrift(const Drift& drift);
   const Drift& drift() const { return drift_; }
 
   std::size_t layerCount() const { return layers_.size(); }
@@ -58,16 +60,17 @@ class DensityField {
   const std::vector<Layer>& layers() const { return layers_; }
 
   const std::vector<PlacedGrid>& grids() const { return grids_; }
+  const std::vector<HeroBody>& heroes() const { return bodies_; }
 
-  // Extinction in 1/m of all layers and grids together; detail finer than `footprint` (m) is replaced by its mean, 0 is
-  // the truth.
+  // Extinction in 1/m of all layers, grids and hero clouds together; detail finer than `footprint` (m) is replaced by
+  // its mean, 0 is the truth.
   float extinction(const glm::dvec3& point, float footprint = 0.0f) const;
   std::vector<float> extinction(std::span<const glm::dvec3> points, float footprint = 0.0f) const;
   // The same of one layer.
   std::vector<float> layerExtinction(std::size_t layer, std::span<const glm::dvec3> points,
                                      float footprint = 0.0f) const;
 
-  // Vertical optical depth between the altitudes `low` and `high` over a place, layers and grids, by the midpoint rule
+  // Vertical optical depth between the altitudes `low` and `high` over a place, without sheets, by the midpoint rule
   // with steps of at most `step` m.
   double opticalDepth(const glm::dvec2& place, double low, double high, double step = 10.0) const;
 
@@ -88,12 +91,15 @@ class DensityField {
   std::vector<float> sheetOpticalDepth(std::size_t sheet, std::span<const glm::dvec2> places) const;
 
  private:
+  void addHeroes(std::span<const glm::dvec3> points, float footprint, std::span<float> sum) const;
   void addGrids(std::span<const glm::dvec3> points, std::span<float> sum) const;
   void addLayer(std::size_t layer, std::span<const glm::dvec3> points, float footprint, std::span<float> sum) const;
 
   std::vector<Layer> layers_;
   std::vector<Sheet> sheets_;
   std::vector<PlacedGrid> grids_;
+  std::vector<Hero> heroes_;
+  std::vector<HeroBody> bodies_;  // of the heroes, at the time of the drift
   std::vector<Volume> maps_;
   Drift drift_;
   int seed_;

@@ -32,6 +32,16 @@ static void layerExtinction(const one::LayerParams& layer, const one::WeatherPar
   }
 }
 
+static void heroExtinction(const one::HeroParams& hero, const one::HeroParts& geometry, const kernels::HeroTextures& t,
+                           float footprint, const kernels::Points& points, float* sigma) {
+  const auto c = std::bit_cast<law::HeroParams>(hero);
+  const auto parts = std::bit_cast<law::HeroParts>(geometry);
+  for (std::size_t i = 0; i < points.count; i += law::laneCount()) {
+    const Vec3 point(loadReal(points.x + i), loadReal(points.y + i), loadReal(points.z + i));
+    storeReal(law::heroExtinction(point, footprint, c, parts, t.shape, t.billows), sigma + i);
+  }
+}
+
 static void sheetOpticalDepth(const one::SheetParams& sheet, const kernels::Points& points, float* depth) {
   const auto s = std::bit_cast<law::SheetParams>(sheet);
   for (std::size_t i = 0; i < points.count; i += law::laneCount())
@@ -44,12 +54,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace welkin {
 HWY_EXPORT(layerExtinction);
+HWY_EXPORT(heroExtinction);
 HWY_EXPORT(sheetOpticalDepth);
 
 namespace kernels {
 void layerExtinction(const law::LayerParams& layer, const law::WeatherParams& weather, const LayerTextures& textures,
                      float footprint, const Points& points, float* sigma) {
   HWY_DYNAMIC_DISPATCH(layerExtinction)(layer, weather, textures, footprint, points, sigma);
+}
+void heroExtinction(const law::HeroParams& hero, const law::HeroParts& parts, const HeroTextures& textures,
+                    float footprint, const Points& points, float* sigma) {
+  HWY_DYNAMIC_DISPATCH(heroExtinction)(hero, parts, textures, footprint, points, sigma);
 }
 void sheetOpticalDepth(const law::SheetParams& sheet, const Points& points, float* depth) {
   HWY_DYNAMIC_DISPATCH(sheetOpticalDepth)(sheet, points, depth);

@@ -16,10 +16,16 @@ struct Points {
 struct LayerTextures {
   TextureView map, base, detail, third;  // third: warp of "profile", curl of "nubis"
 };
+struct HeroTextures {
+  TextureView shape, billows;
+};
 
 // Writes the layer's extinction at the points.
 void layerExtinction(const law::LayerParams& layer, const law::WeatherParams& weather, const LayerTextures& textures,
                      float footprint, const Points& points, float* sigma);
+// Writes a hero cloud's extinction at the points.
+void heroExtinction(const law::HeroParams& hero, const law::HeroParts& parts, const HeroTextures& textures,
+                    float footprint, const Points& points, float* sigma);
 // Writes the sheet's optical depth over the points.
 void sheetOpticalDepth(const law::SheetParams& sheet, const Points& points, float* depth);
 

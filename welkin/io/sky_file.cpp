@@ -128,12 +128,14 @@ class Reader {
 
   void sizeLists(const toml::table& root) {
     const toml::node *layers = root.get("layer"), *sheets = root.get("sheet"), *grids = root.get("grid");
+    const toml::node* heroes = root.get("hero");
     if (layers)
       scene_.layers.assign(listSize(*layers, "layer", kMaxLayers), Layer{});
-    else if (sheets || grids)
+    else if (sheets || grids || heroes)
       scene_.layers.clear();
     if (sheets) scene_.sheets.assign(listSize(*sheets, "sheet", kMaxSheets), Sheet{});
     if (grids) scene_.grids.assign(listSize(*grids, "grid", kMaxGrids), GridCloud{});
+    if (heroes) scene_.heroes.assign(listSize(*heroes, "hero", kMaxHeroes), Hero{});
   }
 
   std::size_t listSize(const toml::node& node, const char* list, std::size_t most) {
@@ -159,19 +161,23 @@ class Reader {
       else if (!(path.empty() && key == "format"))
         readChild(path, key, node);
     };
-    if (path == "quality" && table.contains("preset"))
-      readValue(*section, *findField(*section, "preset"), *table.get("preset"));
+    // Presets first, whatever else stands in the table wins.
+    const char* preset = path == "quality"                                        ? "preset"
+                         : path.starts_with("hero.") && tableName(path) == "hero" ? "species"
+                                                                                  : "";
+    if (*preset && table.contains(preset)) readValue(*section, *findField(*section, preset), *table.get(preset));
     for (auto&& [key, node] : table)
-      if (!(path == "quality" && key == "preset")) readKey(key, node);
+      if (key != preset) readKey(key, node);
   }
 
   void readChild(const std::string& path, const toml::key& key, const toml::node& node) {
     const std::string child = joined(path, key.str());
-    if (path.empty() && (child == "layer" || child == "sheet" || child == "grid")) {
+    if (path.empty() && (child == "layer" || child == "sheet" || child == "grid" || child == "hero")) {
       const toml::array* array = node.as_array();
       const std::size_t size = child == "layer"   ? scene_.layers.size()
                                : child == "sheet" ? scene_.sheets.size()
-                                                  : scene_.grids.size();
+                               : child == "grid"  ? scene_.grids.size()
+                                                  : scene_.heroes.size();
       for (std::size_t i = 0; array && i < size; ++i)
         if (const toml::table* element = (*array)[i].as_table()) readTable(*element, fmt::format("{}.{}", child, i));
       return;
@@ -206,7 +212,7 @@ class Reader {
         known.push_back(rest.substr(0, rest.find('.')));
       }
     }
-    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet", "grid"});
+    if (path.empty()) known.insert(known.end(), {"format", "layer", "sheet", "grid", "hero"});
     const std::string near = nearestName(key, known);
     const std::string table = path.empty() ? "a sky" : tableName(path);
     return fmt::format("'{}' is not a parameter of {}; {}", key, table,
@@ -234,31 +240,42 @@ Scene loadSky(const std::string& path) { return parseSky(readFile(path, kMaxByte
 std::string tomlVersion() { return fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH); }
 
 std::string writeSky(const Scene& original) {
-  if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets || original.grids.size() > kMaxGrids)
+  if (original.layers.size() > kMaxLayers || original.sheets.size() > kMaxSheets || original.grids.size() > kMaxGrids ||
+      original.heroes.size() > kMaxHeroes)
     throw Error(ErrorKind::badInput, "",
-                fmt::format("a sky has at most {} layers, {} sheets and {} grids", kMaxLayers, kMaxSheets, kMaxGrids));
+                fmt::format("a sky has at most {} layers, {} sheets, {} grids and {} hero clouds", kMaxLayers,
+                            kMaxSheets, kMaxGrids, kMaxHeroes));
   Scene scene = original;
   const Scene defaults;
   Scene listsOnly;
   listsOnly.layers = scene.layers;
-  const bool defaultLayers = scene.sheets.empty() && scene.grids.empty() && sameScene(listsOnly, defaults);
-  Quality quality = qualityPreset(scene.quality.preset);
+  const bool noLists = scene.sheets.empty() && scene.grids.empty() && scene.heroes.empty();
+  const bool defaultLayers = noLists && sameScene(listsOnly, defaults);
+  // What stands in the tables when nothing but presets has been read.
+  Scene presets = scene;
+  presets.quality = qualityPreset(scene.quality.preset);
+  for (Hero& hero : presets.heroes) hero = heroPreset(hero.cloud.species);
+  const std::vector<Section> unwritten = sectionsOf(presets);
 
   std::string out = fmt::format("format = {}\n", kFormat);
+  std::size_t number = 0;
   for (const Section& section : sectionsOf(scene)) {
+    const void* preset = unwritten[number++].object;
     if (defaultLayers && section.path.starts_with("layer.")) continue;
     std::string rows;
     for (const Field& f : section.fields) {
       const FieldValue value = f.get(section.object);
-      const bool followsPreset = section.object == &scene.quality && f.name != std::string_view("preset");
-      if (value != (followsPreset ? f.get(&quality) : f.defaultValue))
+      const std::string_view name = f.name;
+      const bool follows = (section.object == &scene.quality && name != "preset") ||
+                           (section.path.starts_with("hero.") && name != "species");
+      if (value != (follows ? f.get(preset) : f.defaultValue))
         rows += fmt::format("{} = {}\n", f.name, formatValue(f, value));
     }
-    const bool element =
-        std::count(section.path.begin(), section.path.end(), '.') == 1 &&
-        (section.path.starts_with("layer.") || section.path.starts_with("sheet.") || section.path.starts_with("grid."));
+    const bool element = std::count(section.path.begin(), section.path.end(), '.') == 1 &&
+                         (section.path.starts_with("layer.") || section.path.starts_with("sheet.") ||
+                          section.path.starts_with("grid.") || section.path.starts_with("hero."));
     if (section.path.empty())
-      out += rows + (scene.layers.empty() && scene.sheets.empty() && scene.grids.empty() ? "layer = []\n" : "");
+      out += rows + (scene.layers.empty() && noLists ? "layer = []\n" : "");
     else if (element)
       out += fmt::format("\n[[{}]]\n{}", tableName(section.path), rows);
     else if (!rows.empty())

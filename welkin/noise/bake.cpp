@@ -178,6 +178,17 @@ static void fillProfileDetail(const one::ProfileDetailParams& params, Volume& vo
   });
 }
 
+static void fillBillows(int cells, std::uint32_t seed, Volume& volume) {
+  parallelFor(rowCount(volume), 64, [&](std::size_t begin, std::size_t end) {
+    BillowRows billows(volume.width, cells, 1, 1.0f, seed);
+    RowBuffer rows(volume, 1);
+    forRows(volume, begin, end, [&](std::size_t row, int y, int z) {
+      billows.row(y, z, rows.plane(0), rows.stride());
+      rows.store(volume, row);
+    });
+  });
+}
+
 // Two channels straight from the law, for small textures.
 template <class Texel>
 static void fillDirectly(Volume& volume, const Texel& texel) {
@@ -247,6 +258,7 @@ HWY_EXPORT(fillCurl);
 HWY_EXPORT(fillProfileBase);
 HWY_EXPORT(fillProfileDetail);
 HWY_EXPORT(fillProfileWarp);
+HWY_EXPORT(fillBillows);
 HWY_EXPORT(measureProfileBase);
 HWY_EXPORT(measureProfileDetail);
 HWY_EXPORT(measureProfileWarp);
@@ -258,6 +270,7 @@ void fillCurl(const law::CurlParams& p, Volume& v) { HWY_DYNAMIC_DISPATCH(fillCu
 void fillProfileBase(const law::ProfileBaseParams& p, Volume& v) { HWY_DYNAMIC_DISPATCH(fillProfileBase)(p, v); }
 void fillProfileDetail(const law::ProfileDetailParams& p, Volume& v) { HWY_DYNAMIC_DISPATCH(fillProfileDetail)(p, v); }
 void fillProfileWarp(const law::ProfileWarpParams& p, Volume& v) { HWY_DYNAMIC_DISPATCH(fillProfileWarp)(p, v); }
+void fillBillows(int cells, std::uint32_t seed, Volume& v) { HWY_DYNAMIC_DISPATCH(fillBillows)(cells, seed, v); }
 std::vector<glm::vec2> measureProfileBase(const law::ProfileBaseParams& p, std::span<const glm::vec3> points) {
   return HWY_DYNAMIC_DISPATCH(measureProfileBase)(p, points);
 }

@@ -1,5 +1,6 @@
 #pragma once
 // The SIMD kernels behind textures.hpp and params.hpp.
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ void fillCurl(const law::CurlParams& params, Volume& volume);
 void fillProfileBase(const law::ProfileBaseParams& params, Volume& volume);
 void fillProfileDetail(const law::ProfileDetailParams& params, Volume& volume);
 void fillProfileWarp(const law::ProfileWarpParams& params, Volume& volume);
+void fillBillows(int cells, std::uint32_t seed, Volume& volume);
 
 // The raw channels at points of the tile.
 std::vector<glm::vec2> measureProfileBase(const law::ProfileBaseParams& params, std::span<const glm::vec3> points);

@@ -1,5 +1,6 @@
 #include "welkin/noise/textures.hpp"
 
+#include "welkin/base/error.hpp"
 #include "welkin/noise/bake.hpp"
 #include "welkin/noise/params.hpp"
 
@@ -69,6 +70,13 @@ Volume bakeProfileWarp(const ProfileNoiseSettings& settings) {
   const auto params = profileWarpParams(settings);
   Volume volume = cube(settings.warpSize, 2);
   bake::fillProfileWarp(params, volume);
+  return volume;
+}
+
+Volume bakeBillows(int size, int cells, std::uint32_t seed) {
+  if (size < 1 || cells < 1) throw Error(ErrorKind::badInput, "", "billows need a size and cells of at least 1");
+  Volume volume = cube(size, 1);
+  bake::fillBillows(cells, seed, volume);
   return volume;
 }
 

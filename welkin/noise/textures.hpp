@@ -3,6 +3,8 @@
 // realtime/noise_textures.hpp before both are rounded to half floats, and the same bits on any number of threads. Texel
 // (i, j, k) stands at uvw = (i + 1/2, j + 1/2, k + 1/2) / size. All throw Error (badInput) for a size below 1 or a
 // setting outside its field table's range.
+#include <cstdint>
+
 #include "welkin/noise/settings.hpp"
 #include "welkin/noise/volume.hpp"
 
@@ -27,5 +29,8 @@ Volume bakeProfileBasePacked(const ProfileNoiseSettings& settings, float billowM
 Volume bakeProfileDetail(const ProfileNoiseSettings& settings);
 // warpSize^3, RG: two fields centred on 1/2.
 Volume bakeProfileWarp(const ProfileNoiseSettings& settings);
+
+// size^3, R: billows of one size, of cells^3 feature points.
+Volume bakeBillows(int size, int cells, std::uint32_t seed);
 
 }  // namespace welkin

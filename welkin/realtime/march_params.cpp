@@ -142,6 +142,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   }
   for (const GridCloud& grid : scene.grids)
     if (!grid.file.empty()) albedo = std::min(albedo, grid.albedo);
+  for (const Hero& hero : scene.heroes) albedo = std::min(albedo, hero.cloud.albedo);
   if (m.top < m.bottom) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
   m.skyIrradiance = glm::vec4(diffuse, albedo);
   // Air in the shade sees the clouds above, the gaps between them, and the ground.

@@ -11,6 +11,7 @@
 
 #include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
+#include "welkin/density/hero_grid.hpp"
 #include "welkin/gl/state.hpp"
 #include "welkin/noise/blue_noise.hpp"
 #include "welkin/realtime/frame_params.hpp"
@@ -123,7 +124,8 @@ struct Renderer::State {
   LightVolume* light = nullptr;
   int weatherNumber = 0, skyNumber = 0;  // change when they have to be made anew, or their light is of no use
   GridAtlas grids;
-  std::vector<PlacedGrid> placedGrids;  // that it was made of
+  std::vector<PlacedGrid> heroGrids;    // hero clouds, in still air
+  std::vector<PlacedGrid> placedGrids;  // that it was made of, without hero clouds
   float gridExtinction = 0.0f;          // their greatest, 1/m
   gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
   std::string marchDefines;
@@ -164,6 +166,16 @@ struct Renderer::State {
     return std::equal(placedGrids.begin(), placedGrids.end(), custom.grids.begin(), custom.grids.end(), same);
   }
 
+  // Whether hero clouds baked for one scene are those of another.
+  static bool sameHeroes(const Scene& a, const Scene& b) {
+    const auto same = [&](const Hero& x, const Hero& y) {
+      const bool ages = x.cloud.lifetime > 0.0f || x.cloud.updraft > 0.0f || x.form.shape == HeroShape::classic;
+      return sameFields(x.cloud, y.cloud) && sameFields(x.form, y.form) && sameFields(x.surface, y.surface) &&
+             sameFields(x.classic, y.classic) && (!ages || a.time == b.time);
+    };
+    return a.seed == b.seed && std::equal(a.heroes.begin(), a.heroes.end(), b.heroes.begin(), b.heroes.end(), same);
+  }
+
   // Whether another scene has the very clouds of this one, its textures being the renderer's own.
   bool sameClouds(const Scene& next, const CustomTextures& custom) const {
     const auto sameLayer = [](const Layer& a, const Layer& b) {
@@ -171,7 +183,7 @@ struct Renderer::State {
              sameFields(a.nubis, b.nubis);
     };
     return hasScene && !customised && !replacesNoise(custom) && custom.weatherMaps.empty() && sameGrids(custom) &&
-           scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
+           sameHeroes(scene, next) && scene.seed == next.seed && sameFields(scene.wind, next.wind) &&
            sameFields(scene.noise.profile, next.noise.profile) &&
            sameFields(scene.noise.baseShape, next.noise.baseShape) &&
            sameFields(scene.noise.detail, next.noise.detail) && sameFields(scene.noise.curl, next.noise.curl) &&
@@ -184,7 +196,7 @@ struct Renderer::State {
   bool kindred(const Scene& next, const CustomTextures& custom) const {
     const auto sameShape = [](const Layer& a, const Layer& b) { return a.cloud.shape == b.cloud.shape; };
     return !customised && !replacesNoise(custom) && scene.seed == next.seed && custom.weatherMaps.empty() &&
-           sameGrids(custom) &&
+           sameGrids(custom) && sameHeroes(scene, next) &&
            std::equal(scene.layers.begin(), scene.layers.end(), next.layers.begin(), next.layers.end(), sameShape);
   }
 
@@ -398,11 +410,23 @@ void Renderer::State::makeGrids(const Scene& next, const CustomTextures& custom)
     throw Error(ErrorKind::badInput, "",
                 fmt::format("the sky names {} grids, and {} were handed to the renderer, which takes at most {}", named,
                             custom.grids.size(), kMaxGrids));
-  if (sameGrids(custom)) return;
-  grids = GridAtlas(gl, custom.grids);
+  if (custom.grids.size() + next.heroes.size() > kMaxGrids)
+    throw Error(ErrorKind::badInput, "",
+                fmt::format("the real-time renderer draws at most {} grids and hero clouds together, and this sky has "
+                            "{}; the path tracer (--renderer path) draws them all",
+                            kMaxGrids, custom.grids.size() + next.heroes.size()));
+  const bool known = hasScene && sameHeroes(scene, next);
+  if (known && sameGrids(custom)) return;
   placedGrids = custom.grids;
+  if (!known) {
+    heroGrids.clear();
+    for (const Hero& hero : next.heroes) heroGrids.push_back(heroGrid(hero, next.time, next.seed));
+  }
+  std::vector<PlacedGrid> all = placedGrids;
+  all.insert(all.end(), heroGrids.begin(), heroGrids.end());
+  grids = GridAtlas(gl, all);
   gridExtinction = 0.0f;
-  for (const PlacedGrid& grid : placedGrids)
+  for (const PlacedGrid& grid : all)
     gridExtinction = std::max(gridExtinction, grid.voxels->maximum() * static_cast<float>(grid.extinction));
 }
 
@@ -462,7 +486,9 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     block.sheets[i] = sheetParams(scene.sheets[i], place, drift.time, scene.seed);
   std::vector<Shell> shells;
   for (std::size_t i = 0; i < grids.count(); ++i) {
-    block.grids[i] = grids.params(i, place);
+    // Hero clouds come after the grids, and the wind carries them.
+    const double carried = i < placedGrids.size() ? 0.0 : double(scene.heroes[i - placedGrids.size()].cloud.drift);
+    block.grids[i] = grids.params(i, place - carried * driftOffset(drift));
     shells.push_back(grids.shell(i));
   }
   block.air = sky.params().air;

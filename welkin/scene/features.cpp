@@ -8,7 +8,7 @@ std::string featuresOf(const Scene& scene) {
     if (shown && !words.empty()) words += ',';
     if (shown) words += word;
   };
-  add(!scene.layers.empty() || !scene.grids.empty(), "clouds");
+  add(!scene.layers.empty() || !scene.grids.empty() || !scene.heroes.empty(), "clouds");
   add(scene.lightning.rate > 0.0f && !scene.layers.empty(), "lightning");
   add(!scene.sheets.empty(), "sheets");
   return words;

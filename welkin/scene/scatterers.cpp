@@ -13,6 +13,7 @@ law::MiePhase phaseOf(ScatteringPhase phase, float diameter, float asymmetry) {
 }  // namespace
 
 law::MiePhase phaseOf(const CloudLayer& cloud) { return phaseOf(cloud.phase, cloud.dropletDiameter, cloud.asymmetry); }
+law::MiePhase phaseOf(const HeroCloud& cloud) { return phaseOf(cloud.phase, cloud.dropletDiameter, cloud.asymmetry); }
 law::MiePhase phaseOf(const GridCloud& cloud) { return phaseOf(cloud.phase, cloud.dropletDiameter, cloud.asymmetry); }
 
 }  // namespace welkin

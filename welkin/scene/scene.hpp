@@ -8,6 +8,7 @@
 #include "welkin/base/fields.hpp"
 #include "welkin/base/tone.hpp"
 #include "welkin/density/grid_cloud.hpp"
+#include "welkin/density/hero.hpp"
 #include "welkin/density/layer.hpp"
 #include "welkin/density/noise_settings.hpp"
 #include "welkin/light/settings.hpp"
@@ -117,7 +118,7 @@ struct FieldTable<Film> {
   }
 };
 
-inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4, kMaxGrids = 4;
+inline constexpr std::size_t kMaxLayers = 4, kMaxSheets = 4, kMaxGrids = 4, kMaxHeroes = 32;
 
 struct Scene {
   std::string title;
@@ -126,6 +127,7 @@ struct Scene {
   std::vector<Layer> layers{Layer{}};
   std::vector<Sheet> sheets;
   std::vector<GridCloud> grids;
+  std::vector<Hero> heroes;
   Sun sun;
   Moon moon;
   Night night;

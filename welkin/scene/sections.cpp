@@ -55,6 +55,14 @@ std::vector<Section> sectionsOf(Scene& scene) {
     all.push_back(section(fmt::format("sheet.{}", i), "a thin high cloud", scene.sheets[i]));
   for (std::size_t i = 0; i < scene.grids.size(); ++i)
     all.push_back(section(fmt::format("grid.{}", i), "a cloud from an OpenVDB file", scene.grids[i]));
+  for (std::size_t i = 0; i < scene.heroes.size(); ++i) {
+    Hero& hero = scene.heroes[i];
+    const std::string path = fmt::format("hero.{}", i);
+    all.push_back(section(path, "a single cloud, modelled by itself", hero.cloud));
+    all.push_back(section(path + ".form", "its smooth shape", hero.form));
+    all.push_back(section(path + ".surface", "billows and edge", hero.surface));
+    all.push_back(section(path + ".classic", "the formula of shape \"classic\"", hero.classic));
+  }
   return all;
 }
 
@@ -110,6 +118,9 @@ std::string assign(Scene& scene, const Section& section, const Field& field, Fie
   field.set(section.object, value);
   if (section.object == &scene.quality && field.name == std::string_view("preset"))
     scene.quality = qualityPreset(scene.quality.preset);
+  for (Hero& hero : scene.heroes)
+    if (section.object == &hero.cloud && field.name == std::string_view("species"))
+      setSpecies(hero, hero.cloud.species);
   return "";
 }
 

@@ -26,7 +26,8 @@ std::string tableName(std::string_view path);
 // The field called `name`, or null.
 const Field* findField(const Section& section, std::string_view name);
 
-// Sets one parameter after checking it, and what hangs on it: quality.preset sets the whole table. Returns what is
+// Sets one parameter after checking it, and what hangs on it: quality.preset sets the whole table, a
+// hero's species all of its tables. Returns what is
 // wrong with the value, without the field's name, or an empty text.
 std::string assign(Scene& scene, const Section& section, const Field& field, FieldValue value);
 
@@ -37,7 +38,7 @@ void setField(Scene& scene, std::string_view assignment);
 // A value as --set and the sky file write it, shortest text that gives the same bits; texts stand in quotes.
 std::string formatValue(const Field& field, const FieldValue& value);
 
-// True when the two have the same layers, sheets and grids and every parameter is the same.
+// True when the two have the same layers, sheets, grids and hero clouds and every parameter is the same.
 bool sameScene(const Scene& a, const Scene& b);
 
 }  // namespace welkin

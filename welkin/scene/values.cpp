@@ -108,7 +108,7 @@ std::string shortest(const Field& field, double value) {
 
 // "layer.weather.coverage" -> "layer.0.weather.coverage"
 std::string withIndex(std::string_view path) {
-  for (const std::string_view list : {"layer.", "sheet.", "grid."})
+  for (const std::string_view list : {"layer.", "sheet.", "grid.", "hero."})
     if (path.starts_with(list) && path.size() > list.size() && (path[list.size()] < '0' || path[list.size()] > '9'))
       return fmt::format("{}0.{}", list, path.substr(list.size()));
   return std::string(path);
@@ -146,7 +146,7 @@ void setField(Scene& scene, std::string_view assignment) {
     for (const Field& other : s.fields) known.push_back(s.path.empty() ? other.name : s.path + "." + other.name);
   }
   for (const auto& [list, size] : {std::pair("layer", scene.layers.size()), std::pair("sheet", scene.sheets.size()),
-                                   std::pair("grid", scene.grids.size())})
+                                   std::pair("grid", scene.grids.size()), std::pair("hero", scene.heroes.size())})
     if (table.starts_with(fmt::format("{}.", list)) &&
         std::none_of(sections.begin(), sections.end(),
                      [&](const Section& s) { return table == s.path || table.starts_with(s.path + "."); }))

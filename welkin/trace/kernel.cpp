@@ -77,6 +77,10 @@ class Paths {
     for (const auto& l : scene.clouds->layers) layers_.push_back(std::bit_cast<law::LayerParams>(l));
     for (const auto& c : scene.clouds->weather.clips) clips_.push_back(std::bit_cast<law::ClipParams>(c));
     for (const auto& h : scene.clouds->sheets) sheets_.push_back(std::bit_cast<law::SheetParams>(h));
+    for (const auto& h : scene.clouds->heroes) {
+      heroes_.push_back(std::bit_cast<law::HeroParams>(h.params));
+      parts_.push_back(std::bit_cast<law::HeroParts>(*h.body.parts));
+    }
     hasAir_ = air_.rayleigh.x + air_.mieExtinction.x + air_.ozone.x > 0.0f;
     cloudTop_ = m_.levels.empty() ? -1.0f : m_.top;
     for (const auto& h : sheets_) cloudTop_ = std::max(cloudTop_, h.height + kSheetThickness + 2.0f);
@@ -349,11 +353,24 @@ class Paths {
     return select(inside, value * grid.extinction, Real(0.0f));
   }
 
+  Real heroExtinction(std::size_t i, Vec3 q, Mask lanes) {
+    const law::HeroParams& hero = heroes_[i];
+    const Vec3 x = law::heroAxes(q, hero);
+    const auto within = [](Real a, float low, float high) { return both(a > low, a < high); };
+    const Mask inside = both(within(x.x, hero.low.x, hero.high.x),
+                             both(within(x.y, hero.low.y, hero.high.y), within(x.z, hero.low.z, hero.high.z)));
+    if (noneOf(both(lanes, inside))) return Real(0.0f);
+    const CloudCache& c = *s_.clouds;
+    return law::heroExtinction(q, Real(0.0f), hero, parts_[i], c.heroes[i].body.shapeView(),
+                               c.noise.heroBillows.view());
+  }
+
   // Extinction of component `i` at points of cloud space.
   Real extinctionOf(std::size_t i, Vec3 q, Mask lanes) {
     const CloudCache& c = *s_.clouds;
-    if (i >= layers_.size() + sheets_.size())
-      return gridExtinction(c.grids[i - layers_.size() - sheets_.size()], q, lanes);
+    const std::size_t flat = layers_.size() + sheets_.size(), voxels = flat + c.grids.size();
+    if (i >= voxels) return heroExtinction(i - voxels, q, lanes);
+    if (i >= flat) return gridExtinction(c.grids[i - flat], q, lanes);
     if (i < layers_.size()) {
       const DensityTextures& t = c.noise;
       const TextureView main = c.weather.mainView(), extra = c.weather.extraView();
@@ -880,6 +897,8 @@ class Paths {
   std::vector<law::LayerParams> layers_;
   std::vector<law::ClipParams> clips_;
   std::vector<law::SheetParams> sheets_;
+  std::vector<law::HeroParams> heroes_;
+  std::vector<law::HeroParts> parts_;
   law::PlanetParams planet_;
   law::AtmosphereParams air_;
   law::CameraParams camera_;

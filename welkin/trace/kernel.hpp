@@ -19,7 +19,7 @@ inline constexpr float kAirClimb = 1000.0f;  // m, by which a step may change it
 // A sheet is a slab of this height above Sheet::height; its law knows a vertical optical depth only.
 inline constexpr float kSheetThickness = 200.0f;  // m
 
-// What scatters besides the air: the layers, then the sheets, then the grids.
+// What scatters besides the air: the layers, then the sheets, the grids and the hero clouds.
 struct Component {
   float albedo;
   int phase;  // index of its table

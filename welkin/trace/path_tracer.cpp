@@ -75,6 +75,7 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
                              .drift = {scene.wind.speed, scene.wind.from, scene.time},
                              .seed = scene.seed,
                              .grids = inputs.grids,
+                             .heroes = scene.heroes,
                              .weatherMaps = inputs.weatherMaps},
                             {}, eye, settings.clouds);
   KernelScene& k = b.kernel;
@@ -109,6 +110,8 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
     if (!grid.file.empty()) named.push_back(grid);
   named.resize(inputs.grids.size());
   for (const GridCloud& grid : named) k.components.push_back({grid.albedo, b.phaseOf(PhaseTable::mie(phaseOf(grid)))});
+  for (const Hero& hero : scene.heroes)
+    k.components.push_back({hero.cloud.albedo, b.phaseOf(PhaseTable::mie(phaseOf(hero.cloud)))});
   k.aerosolPhase = b.phaseOf(PhaseTable::henyeyGreenstein(scene.atmosphere.mieG));
   for (const PhaseTable& table : b.phases) k.phases.push_back(table.view());
   if (!k.components.empty()) {
