@@ -22,8 +22,8 @@ struct Run {
 Run run(const std::string& command, const std::string& size, const std::string& line, int frames, int rounds) {
   const std::filesystem::path script = std::filesystem::temp_directory_path() / "welkin_bench_viewer.txt";
   std::ofstream(script) << fmt::format(fmt::runtime(line), frames);
-  const std::string whole = fmt::format("'{}/bin/welkin' {} --headless --scale 1 --size {} --script {}", WELKIN_BINARY_DIR,
-                                        command, size, script.string());
+  const std::string whole = fmt::format("'{}/bin/welkin' {} --headless --scale 1 --size {} --script {}",
+                                        WELKIN_BINARY_DIR, command, size, script.string());
   std::vector<double> walls, cpus;
   for (int i = 0; i < rounds; ++i) {
     const double wall = bench::wallSeconds(), cpu = bench::childSeconds();
@@ -57,15 +57,17 @@ int main(int argc, char** argv) {
   std::string rows;
   for (const Case& c : kCases)
     for (const char* size : {"640x360", "1280x720"}) {
-      const Run first = run(c.command, size, c.script, 2, rounds), all = run(c.command, size, c.script, 2 + frames, rounds);
+      const Run first = run(c.command, size, c.script, 2, rounds),
+                all = run(c.command, size, c.script, 2 + frames, rounds);
       const double wall = (all.wall - first.wall) / frames, cpu = (all.cpu - first.cpu) / frames;
       const double start = first.wall - 2.0 * wall;
       fmt::print("{} {}: {:.1f} frames a second, {:.3f} CPU s a frame, first frame after {:.2f} s\n", c.name, size,
                  1.0 / wall, cpu, start);
       std::fflush(stdout);
-      rows += fmt::format("{}{{\"what\": \"{}\", \"size\": \"{}\", \"frames_a_second\": {:.2f}, \"cpu_s_a_frame\": {:.4f}, "
-                          "\"start_s\": {:.3f}}}",
-                          rows.empty() ? "" : ", ", c.name, size, 1.0 / wall, cpu, start);
+      rows += fmt::format(
+          "{}{{\"what\": \"{}\", \"size\": \"{}\", \"frames_a_second\": {:.2f}, \"cpu_s_a_frame\": {:.4f}, "
+          "\"start_s\": {:.3f}}}",
+          rows.empty() ? "" : ", ", c.name, size, 1.0 / wall, cpu, start);
     }
   fmt::print("{{\"frames\": {}, \"rows\": [{}]}}\n", frames, rows);
 }

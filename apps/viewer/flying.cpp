@@ -16,7 +16,7 @@ namespace welkin::viewer {
 namespace {
 
 constexpr int kFramesASecond = 60, kMostFrames = 15;  // of flight at a time, when drawing does not keep up
-constexpr float kDeadZone = 0.12f;                     // of a gamepad's sticks
+constexpr float kDeadZone = 0.12f;                    // of a gamepad's sticks
 
 // What is left of an axis beyond its dead zone; small movements count less.
 float stickOf(float axis) {

@@ -1,5 +1,6 @@
 #pragma once
-// `welkin view`, a window on a sky, and `welkin fly`, an aircraft in it. The command hands in what it knows and the viewer does not: presets, files.
+// `welkin view`, a window on a sky, and `welkin fly`, an aircraft in it. The command hands in what it knows and the
+// viewer does not: presets, files.
 #include <functional>
 #include <optional>
 #include <string>

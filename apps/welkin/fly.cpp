@@ -21,11 +21,10 @@ void fly(const FlyArguments& arguments) {
   viewer::ViewerOptions options = arguments.window.options();
   const auto* const start =
       std::find(std::begin(viewer::kFlightStarts), std::end(viewer::kFlightStarts), arguments.start);
-  options.fly = viewer::FlyOptions{
-      .start = static_cast<viewer::FlightStart>(start - std::begin(viewer::kFlightStarts)),
-      .record = arguments.record,
-      .frames = arguments.frames,
-      .every = arguments.every};
+  options.fly = viewer::FlyOptions{.start = static_cast<viewer::FlightStart>(start - std::begin(viewer::kFlightStarts)),
+                                   .record = arguments.record,
+                                   .frames = arguments.frames,
+                                   .every = arguments.every};
   viewer::runViewer(options);
 }
 #else
@@ -45,8 +44,7 @@ void addFly(CLI::App& app) {
       ->type_name("FILE");
   command->add_option("-o,--out", arguments->frames, "a folder for the frames of the script, as PNG")
       ->type_name("FOLDER");
-  command
-      ->add_option("--every", arguments->every, "draws each so many of the script's 60 frames a second: 2 gives 30")
+  command->add_option("--every", arguments->every, "draws each so many of the script's 60 frames a second: 2 gives 30")
       ->check(CLI::Range(1, 600))
       ->capture_default_str();
   command->callback([arguments] { fly(*arguments); });

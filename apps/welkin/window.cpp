@@ -20,22 +20,18 @@ void WindowArguments::addTo(CLI::App& command) {
       ->check(CLI::Range(0.5, 4.0));
   command
       .add_option("--scale", scale,
-                   "resolution while something moves, as a share of the window's; chosen by itself if not given")
+                  "resolution while something moves, as a share of the window's; chosen by itself if not given")
       ->type_name("X")
       ->check(CLI::Range(0.1, 1.0));
-  command.add_option("--script", script, "plays a file of input, then ends; docs/viewer.md")
-      ->type_name("FILE");
-  command.add_option("--screenshot", screenshot, "a PNG of the window when the script has ended")
-      ->type_name("FILE");
+  command.add_option("--script", script, "plays a file of input, then ends; docs/viewer.md")->type_name("FILE");
+  command.add_option("--screenshot", screenshot, "a PNG of the window when the script has ended")->type_name("FILE");
   command.add_flag("--headless", headless, "without window and display, for scripts");
 }
 
 #ifdef WELKIN_HAS_VIEWER
 viewer::ViewerOptions WindowArguments::options() const {
-  if (headless && script.empty())
-    throw UsageError("--headless has no window to work with: give it a --script");
-  if (!screenshot.empty() && script.empty())
-    throw UsageError("--screenshot shows the end of a --script");
+  if (headless && script.empty()) throw UsageError("--headless has no window to work with: give it a --script");
+  if (!screenshot.empty() && script.empty()) throw UsageError("--screenshot shows the end of a --script");
   const Size pixels = parseSize(this->size);
   viewer::ViewerOptions options;
   options.scene = sky.scene();

@@ -63,8 +63,7 @@ TEST_F(FlyCommand, WrongArgumentsAndStepsAreRefused) {
 // Keys, controls, another view, other weather: the same input gives the same frames, and the recording of it flies the
 // same flight.
 TEST_F(FlyCommand, TheSameInputGivesTheSameFrames) {
-  const std::string script =
-      "fly 20 throttle=1\nhold down 30\nkey c\nfly 20 bank=0.5 pitch=0\nkey f\nframes 10\n";
+  const std::string script = "fly 20 throttle=1\nhold down 30\nkey c\nfly 20 bank=0.5 pitch=0\nkey f\nframes 10\n";
   const std::string options = "--start inside --every 15 -o ";
   ASSERT_EQ(play(script, options + path("a") + " --record " + path("flown.txt")).code, 0);
   ASSERT_EQ(play(script, options + path("b")).code, 0);
@@ -83,11 +82,10 @@ TEST_F(FlyCommand, TheSameInputGivesTheSameFrames) {
 
 // Under way the sky can be another one, and a pause lets the picture come to rest.
 TEST_F(FlyCommand, WeatherChangesUnderWay) {
-  const Outcome outcome =
-      play("fly 3 throttle=0.6\nkey space\nsettle\npicture " + path("before.png") + "\ndo open " +
-               (std::filesystem::path(WELKIN_SOURCE_DIR) / "presets/overcast.sky.toml").string() +
-               "\nsettle\npicture " + path("after.png") + "\nkey space\nfly 3\n",
-           "fair_weather --start below --set quality.interleave=1");
+  const Outcome outcome = play("fly 3 throttle=0.6\nkey space\nsettle\npicture " + path("before.png") + "\ndo open " +
+                                   (std::filesystem::path(WELKIN_SOURCE_DIR) / "presets/overcast.sky.toml").string() +
+                                   "\nsettle\npicture " + path("after.png") + "\nkey space\nfly 3\n",
+                               "fair_weather --start below --set quality.interleave=1");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_LT(psnr(loadPng(path("before.png")), loadPng(path("after.png"))), 30.0);
 }

@@ -160,7 +160,9 @@ TEST(Aircraft, StaysFinite) {
   for (int kind = 0; kind < 24; ++kind) {
     Aircraft a = steadyFlight({0.0, 0.0, 800.0}, 0.3 * kind, 30.0 + 3.0 * kind, 0.0).aircraft;
     unsigned random = 77u + static_cast<unsigned>(kind);
-    const auto next = [&] { return static_cast<float>((random = random * 1664525u + 1013904223u) >> 8) / 8388608.0f - 1; };
+    const auto next = [&] {
+      return static_cast<float>((random = random * 1664525u + 1013904223u) >> 8) / 8388608.0f - 1;
+    };
     for (int i = 0; i < 3000; ++i) {
       Controls c{.pitch = 3 * next(), .bank = 3 * next(), .yaw = 3 * next(), .throttle = 2 * next(), .brake = next()};
       if (kind % 3 == 1) c.pitch = i % 2 ? nan : huge;
@@ -244,7 +246,8 @@ TEST(Pilot, KeysMoveTheStickAndBack) {
   EXPECT_EQ(pilot.set("throttle=0.8"), "");
   EXPECT_EQ(pilot.set("view=cockpit"), "");
   EXPECT_EQ(pilot.view(), FlightView::cockpit);
-  for (const char* wrong : {"", "throttle", "throttle=", "throttle=2", "throttle=nan", "pitch=-1.1", "gear=1", "view=up"})
+  for (const char* wrong :
+       {"", "throttle", "throttle=", "throttle=2", "throttle=nan", "pitch=-1.1", "gear=1", "view=up"})
     EXPECT_NE(pilot.set(wrong), "") << wrong;
   EXPECT_EQ(pilot.controls().throttle, 0.8f);
 }
@@ -318,8 +321,8 @@ TEST(Flight, CloudsShakeTheAircraft) {
 
 TEST(Flight, StartsWhereItIsTold) {
   const Scene scene = cloudyScene();
-  for (const FlightStart start : {FlightStart::runway, FlightStart::final, FlightStart::below, FlightStart::inside,
-                                  FlightStart::above}) {
+  for (const FlightStart start :
+       {FlightStart::runway, FlightStart::final, FlightStart::below, FlightStart::inside, FlightStart::above}) {
     Flight flight(scene, start);
     flight.setScene(scene, {}, {});
     for (int i = 0; i < 300; ++i) flight.advance({}, i / 60.0);

@@ -10,6 +10,8 @@ namespace welkin::viewer {
 
 namespace {
 
+constexpr double kHeroPatience = 10.0;  // s
+
 // What the noise textures depend on.
 bool sameNoise(const Scene& a, const Scene& b) {
   const auto mixOf = [](const Scene& s) { return s.layers.empty() ? 0.0f : s.layers.front().profile.billowMix; };
@@ -29,6 +31,7 @@ void AirOfSky::setScene(const Scene& scene, std::span<const Volume> weatherMaps,
                            .drift = {scene.wind.speed, scene.wind.from, scene.time},
                            .seed = scene.seed,
                            .grids = grids,
+                           .heroes = scene.heroes,
                            .weatherMaps = weatherMaps};
   if (field_ && !sameNoise(scene_, scene)) textures_ = {};
   textures_ = bakeDensityTextures(parts, std::move(textures_));
@@ -44,7 +47,9 @@ void AirOfSky::setScene(const Scene& scene, std::span<const Volume> weatherMaps,
 Air AirOfSky::at(const glm::dvec3& point, const glm::dvec3& right, double time) {
   Air air;
   if (!field_) return air;
-  field_->setDrift({scene_.wind.speed, scene_.wind.from, time});
+  // Hero clouds are shaped anew for every drift, which is too dear for every frame.
+  if (scene_.heroes.empty() || std::abs(time - field_->drift().time) > kHeroPatience)
+    field_->setDrift({scene_.wind.speed, scene_.wind.from, time});
   const double rough = turbulence_->deviation(point);
   air.wind = meanWind(scene_.wind, point.z);
   if (rough <= 0.0) return air;

@@ -279,8 +279,8 @@ SteadyFlight steadyFlight(const glm::dvec3& position, double heading, double air
   a.surfaces.elevator = a.trim = elevator;
   a.attitude = attitudeFrom({heading, climb + alpha, 0.0});
   a.heldPitch = climb + alpha;
-  a.velocity =
-      a.airspeed * glm::dvec3(std::sin(heading) * std::cos(climb), std::cos(heading) * std::cos(climb), std::sin(climb));
+  a.velocity = a.airspeed *
+               glm::dvec3(std::sin(heading) * std::cos(climb), std::cos(heading) * std::cos(climb), std::sin(climb));
   return out;
 }
 

@@ -41,13 +41,13 @@ struct Deflections {
 };
 
 struct Aircraft {
-  glm::dvec3 position{0.0};                  // of the centre of mass: east, north, altitude in m
-  glm::dvec3 velocity{0.0};                  // east, north, up in m/s, over ground
-  glm::dquat attitude{1.0, 0.0, 0.0, 0.0};   // world (east, north, up) from body (forward, right, down)
-  glm::dvec3 rates{0.0};                     // of turn about the body's axes, rad/s
-  double power = 0.0;                        // of the engine, as a share; follows the throttle
-  double flaps = 0.0;                        // as they stand
-  double propeller = 0.0;                    // angle, rad
+  glm::dvec3 position{0.0};                 // of the centre of mass: east, north, altitude in m
+  glm::dvec3 velocity{0.0};                 // east, north, up in m/s, over ground
+  glm::dquat attitude{1.0, 0.0, 0.0, 0.0};  // world (east, north, up) from body (forward, right, down)
+  glm::dvec3 rates{0.0};                    // of turn about the body's axes, rad/s
+  double power = 0.0;                       // of the engine, as a share; follows the throttle
+  double flaps = 0.0;                       // as they stand
+  double propeller = 0.0;                   // angle, rad
   Deflections surfaces;
   // What the control system holds while the stick is in the middle, rad; and the elevator's trim.
   double heldPitch = 0.0, heldBank = 0.0, trim = 0.0;
@@ -81,7 +81,8 @@ struct SteadyFlight {
   Aircraft aircraft;
   float throttle = 0.0f;
 };
-SteadyFlight steadyFlight(const glm::dvec3& position, double heading, double airspeed, double climb, double flaps = 0.0);
+SteadyFlight steadyFlight(const glm::dvec3& position, double heading, double airspeed, double climb,
+                          double flaps = 0.0);
 
 // One step of kFlightStep. The control system makes the stick a rate of pitch or bank and holds both while it is in the
 // middle, keeps turns level and coordinated; within what the surfaces can do: it neither prevents a stall that the

@@ -33,8 +33,7 @@ double startAltitude(const Scene& scene, FlightStart start) {
 
 }  // namespace
 
-Flight::Flight(const Scene& scene, FlightStart start)
-    : terrain_(static_cast<unsigned>(scene.seed)), start_(start) {
+Flight::Flight(const Scene& scene, FlightStart start) : terrain_(static_cast<unsigned>(scene.seed)), start_(start) {
   restart(scene);
 }
 

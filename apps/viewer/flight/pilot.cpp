@@ -15,12 +15,12 @@ constexpr float kFrame = 1.0f / 60.0f;  // s
 
 struct Control {
   std::string_view name;
-  float Controls::* member;
+  float Controls::*member;
   float least;
 };
-constexpr Control kControls[] = {{"pitch", &Controls::pitch, -1.0f},      {"bank", &Controls::bank, -1.0f},
-                                 {"yaw", &Controls::yaw, -1.0f},          {"throttle", &Controls::throttle, 0.0f},
-                                 {"flaps", &Controls::flaps, 0.0f},       {"brake", &Controls::brake, 0.0f}};
+constexpr Control kControls[] = {{"pitch", &Controls::pitch, -1.0f}, {"bank", &Controls::bank, -1.0f},
+                                 {"yaw", &Controls::yaw, -1.0f},     {"throttle", &Controls::throttle, 0.0f},
+                                 {"flaps", &Controls::flaps, 0.0f},  {"brake", &Controls::brake, 0.0f}};
 constexpr std::string_view kViews[] = {"cockpit", "chase"};
 
 float toward(float now, float wanted, float seconds) {

@@ -65,7 +65,9 @@ class Dial {
 
 void airspeed(const Dial& d, const Flight& flight) {
   // 0 at the top, 220 knots after 330 degrees.
-  const auto angle = [](double knots) { return static_cast<float>(std::clamp(knots, 0.0, 222.0) / 240.0) * 2.0f * kPi; };
+  const auto angle = [](double knots) {
+    return static_cast<float>(std::clamp(knots, 0.0, 222.0) / 240.0) * 2.0f * kPi;
+  };
   d.arc(angle(45), angle(90), kWhite);
   d.arc(angle(90), angle(150), kGreen);
   d.arc(angle(150), angle(195), kAmber);
@@ -79,7 +81,8 @@ void airspeed(const Dial& d, const Flight& flight) {
 // The disc of the sky behind a horizon, which lies `height` below the centre (in radii) and turned by `bank`.
 void attitude(const Dial& d, const Attitude& now) {
   const float r = 0.9f * d.radius(), bank = static_cast<float>(now.bank);
-  const float step = r / 32.0f * static_cast<float>(180.0 / std::numbers::pi);  // pixels a radian: 32 degrees to the rim
+  const float step =
+      r / 32.0f * static_cast<float>(180.0 / std::numbers::pi);  // pixels a radian: 32 degrees to the rim
   const float below = std::clamp(static_cast<float>(now.pitch) * step, -0.97f * r, 0.97f * r);
   const ImVec2 c = d.centre();
   // Axes of the horizon on the screen.
@@ -107,7 +110,8 @@ void attitude(const Dial& d, const Attitude& now) {
   for (const int degrees : {-60, -45, -30, -20, -10, 10, 20, 30, 45, 60})
     d.tick(static_cast<float>(degrees) * kPi / 180.0f, degrees % 30 == 0);
   const ImVec2 top = on(c, 0.8f * d.radius(), -bank);
-  d.list()->AddTriangleFilled(top, on(c, 0.68f * d.radius(), -bank - 0.08f), on(c, 0.68f * d.radius(), -bank + 0.08f), kWhite);
+  d.list()->AddTriangleFilled(top, on(c, 0.68f * d.radius(), -bank - 0.08f), on(c, 0.68f * d.radius(), -bank + 0.08f),
+                              kWhite);
   // The aircraft.
   const float w = std::max(1.5f, 0.045f * r);
   d.list()->AddLine({c.x - 0.55f * r, c.y}, {c.x - 0.18f * r, c.y}, kAmber, w);
@@ -155,14 +159,15 @@ void compass(const Dial& d, const Attitude& now) {
   const ImVec2 c = d.centre();
   d.list()->AddTriangleFilled(on(c, 0.36f * d.radius(), 0.0f), on(c, 0.3f * d.radius(), 2.6f),
                               on(c, 0.3f * d.radius(), -2.6f), kAmber);
-  d.text({c.x, c.y + 0.4f * d.radius()}, fmt::format("{:03.0f}", std::fmod(heading * 180.0f / kPi + 0.5f, 360.0f) - 0.5f),
-         0.24f, kAmber);
+  d.text({c.x, c.y + 0.4f * d.radius()},
+         fmt::format("{:03.0f}", std::fmod(heading * 180.0f / kPi + 0.5f, 360.0f) - 0.5f), 0.24f, kAmber);
 }
 
 void verticalSpeed(const Dial& d, double climb) {
   // Thousands of feet a minute; 0 points left, 3 lies 170 degrees on.
   const auto angle = [](double thousands) {
-    return static_cast<float>(-0.5 * std::numbers::pi + std::clamp(thousands, -3.1, 3.1) / 3.0 * 0.94 * std::numbers::pi);
+    return static_cast<float>(-0.5 * std::numbers::pi +
+                              std::clamp(thousands, -3.1, 3.1) / 3.0 * 0.94 * std::numbers::pi);
   };
   for (int i = -6; i <= 6; ++i) d.tick(angle(0.5 * i), i % 2 == 0);
   for (int i = -3; i <= 3; ++i) d.label(angle(i), fmt::format("{}", std::abs(i)));

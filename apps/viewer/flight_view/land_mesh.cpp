@@ -141,7 +141,8 @@ void LandMesh::draw(const gl::Program& program, const glm::dvec3& eye, const glm
       const glm::vec2 farthest = glm::max(glm::abs(low), glm::abs(high));
       const double sunk = static_cast<double>(farthest.x * farthest.x + farthest.y * farthest.y) / (2.0 * kEarth);
       const auto under = static_cast<float>(eye.z + sunk);
-      if (!maySee(clip, glm::vec3(low, range.x - under), glm::vec3(high, range.y - static_cast<float>(eye.z)))) continue;
+      if (!maySee(clip, glm::vec3(low, range.x - under), glm::vec3(high, range.y - static_cast<float>(eye.z))))
+        continue;
       constexpr std::size_t kCount = static_cast<std::size_t>(kBlockCells) * kBlockCells * 6;
       const std::size_t offset = static_cast<std::size_t>(block) * kCount * sizeof(std::uint32_t);
       gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(kCount), GL_UNSIGNED_INT,

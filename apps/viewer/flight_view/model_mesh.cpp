@@ -27,7 +27,8 @@ void addTube(ModelMesh& mesh, Part part, const std::vector<std::vector<glm::vec3
     }
   for (std::size_t r = 0; r + 1 < rows.size(); ++r)
     for (std::size_t i = 0; i < n; ++i) {
-      const auto a = first + static_cast<std::uint32_t>(r * n + i), b = first + static_cast<std::uint32_t>(r * n + (i + 1) % n);
+      const auto a = first + static_cast<std::uint32_t>(r * n + i),
+                 b = first + static_cast<std::uint32_t>(r * n + (i + 1) % n);
       const auto m = static_cast<std::uint32_t>(n);
       for (const std::uint32_t index : {a, b, a + m, b, b + m, a + m}) mesh.indices.push_back(index);
     }
@@ -47,8 +48,7 @@ void addFace(ModelMesh& mesh, Part part, const std::vector<glm::vec3>& corners) 
 
 // Half thickness of a NACA four-digit section at the share `x` of its chord (closed trailing edge).
 float thicknessAt(float x, float thickness) {
-  return 5.0f * thickness *
-         (0.2969f * std::sqrt(x) - x * (0.126f + x * (0.3516f - x * (0.2843f - 0.1036f * x))));
+  return 5.0f * thickness * (0.2969f * std::sqrt(x) - x * (0.126f + x * (0.3516f - x * (0.2843f - 0.1036f * x))));
 }
 
 }  // namespace
@@ -180,7 +180,9 @@ ModelMesh aircraftMesh() {
   addRod(mesh, Part::dark, {1.4f, 0.0f, 0.5f}, {1.35f, 0.0f, 1.05f}, 0.05f);
   addRod(mesh, Part::wheel, {1.35f, -0.07f, 1.08f}, {1.35f, 0.07f, 1.08f}, 0.2f);
   addWing(mesh, Part::fin,
-          {{{-3.7f, 0.0f, -0.4f}, 1.65f, 0.09f}, {{-4.35f, 0.0f, -0.9f}, 1.05f, 0.09f}, {{-4.75f, 0.0f, -1.85f}, 0.62f, 0.08f}},
+          {{{-3.7f, 0.0f, -0.4f}, 1.65f, 0.09f},
+           {{-4.35f, 0.0f, -0.9f}, 1.05f, 0.09f},
+           {{-4.75f, 0.0f, -1.85f}, 0.62f, 0.08f}},
           true);
   return mesh;
 }

@@ -254,8 +254,7 @@ class SdlWindow final : public Platform {
         if (!pad_ || SDL_GameControllerGetAttached(pad_)) break;
         SDL_GameControllerClose(pad_);
         pad_ = nullptr;
-        for (int i = 0; i < kPadAxes; ++i)
-          out.push_back({.kind = EventKind::padAxis, .axis = static_cast<PadAxis>(i)});
+        for (int i = 0; i < kPadAxes; ++i) out.push_back({.kind = EventKind::padAxis, .axis = static_cast<PadAxis>(i)});
         break;
       case SDL_CONTROLLERAXISMOTION:
         if (const auto axis = axisOf(static_cast<SDL_GameControllerAxis>(e.caxis.axis)))
