@@ -97,10 +97,10 @@ void Viewer::run() {
     const double seconds = script_ ? kScriptFrame : std::min(secondsSince(last), 0.25);
     last = Clock::now();
     if (step && step->verb == "fly") steer(*step);
-    // A flight may leave out frames of its script, and ends with the last one.
+    // A flight may leave out frames of its script while it flies, and ends with the last one.
     const bool counts = flight_ && script_ && !finished;
     const bool kept = counts && scriptFrames_++ % options_.fly->every == 0;
-    if (counts && !kept && (!step || step->verb == "fly")) {
+    if (counts && !kept && bench_.playing && (!step || step->verb == "fly")) {
       move(seconds);
       continue;
     }
