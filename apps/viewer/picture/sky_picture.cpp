@@ -187,6 +187,7 @@ struct SkyPicture::State {
 
   void renderWithForeground(Canvas& canvas, realtime::Frame& frame) {
     canvas.fitDepth(gl);
+    frame.background = realtime::Background::sky;
     frame.origin = glm::dvec2(frame.position);
     frame.position = {0.0, 0.0, frame.position.z};
     if (!clipsFromZero) {
