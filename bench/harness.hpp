@@ -8,15 +8,18 @@
 
 namespace welkin::bench {
 
-// User and system seconds of all threads of this process.
-inline double cpuSeconds() {
+inline double secondsOf(int whose) {
   rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  getrusage(whose, &usage);
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
+
+// User and system seconds of all threads of this process; of the processes that it has started and that have ended.
+inline double cpuSeconds() { return secondsOf(RUSAGE_SELF); }
+inline double childSeconds() { return secondsOf(RUSAGE_CHILDREN); }
 
 inline double wallSeconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -59,6 +59,7 @@ Viewer::Viewer(const ViewerOptions& options)
   if (!script_) bench_.pace.wantedRate = picture_.softwareDriver() ? 25.0f : 60.0f;
   if (picture_.softwareDriver())
     bench_.say("No GPU was found: the processor draws, coarsely while something moves and in full at rest.");
+  if (options.fly) beginFlight();
 }
 
 // Whether nothing on screen changes by itself but thumbnails.
@@ -95,13 +96,23 @@ void Viewer::run() {
 
     const double seconds = script_ ? kScriptFrame : std::min(secondsSince(last), 0.25);
     last = Clock::now();
+    if (step && step->verb == "fly") steer(*step);
+    // A flight may leave out frames of its script while it flies, and ends with the last one.
+    const bool counts = flight_ && script_ && !finished;
+    const bool kept = counts && scriptFrames_++ % options_.fly->every == 0;
+    if (counts && !kept && bench_.playing && (!step || step->verb == "fly")) {
+      move(seconds);
+      continue;
+    }
     if (thumbnails_.collect(gl_)) lively_ = 3;
     entitle();
     interface_.begin(seconds);
     drawPanels();
-    move(seconds);
+    if (!(flight_ && finished)) move(seconds);
+    if (flight_) drawFlight();
     draw(seconds);
     if (step) command(*step);
+    if (kept) keepFrame();
     if (finished) {
       if (!options_.screenshot.empty())
         savePngOf(gl_, platform_->framebuffer(), platform_->width(), platform_->height(), options_.screenshot);
@@ -109,6 +120,7 @@ void Viewer::run() {
     }
     platform_->present();
   }
+  endFlight();
 }
 
 // What the panels leave free.
@@ -156,6 +168,7 @@ void Viewer::draw(double seconds) {
 }
 
 void Viewer::command(const ScriptStep& step) {
+  if (step.verb == "fly") return;
   if (step.verb == "screenshot") {
     savePngOf(gl_, platform_->framebuffer(), platform_->width(), platform_->height(), step.words[0]);
   } else if (step.verb == "picture") {

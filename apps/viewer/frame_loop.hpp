@@ -1,10 +1,12 @@
 #pragma once
 // The viewer as a whole: events in, panels, sky, picture out.
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "apps/viewer/flight_view/scenery.hpp"
 #include "apps/viewer/model/script.hpp"
 #include "apps/viewer/panels/workbench.hpp"
 #include "apps/viewer/platform/platform.hpp"
@@ -40,6 +42,15 @@ class Viewer {
   void drawTabs();
   void saveSky(const std::string& path);
   void bookmark(int number, bool keep);
+  // Of a flight: flying.cpp.
+  void beginFlight();
+  bool flightKey(Key key);
+  Hands hands() const;
+  void fly(double seconds);
+  void steer(const ScriptStep& step);
+  void drawFlight();
+  void keepFrame();
+  void endFlight();
   bool atRest() const;
   int patience() const;
   Region region() const;
@@ -66,6 +77,12 @@ class Viewer {
   double meteredEv_ = 0.0;
   bool metered_ = false, adapting_ = false;
   float panelWidth_ = 0.0f, governed_ = 0.0f;
+  std::optional<Flight> flight_;
+  std::unique_ptr<Scenery> scenery_;
+  Gaze gaze_;
+  std::array<float, kPadAxes> pad_{};
+  double skyTime_ = 0.0, unflown_ = 0.0;  // s; frames of flight
+  int kept_ = 0, scriptFrames_ = 0;       // frames written; of the script
 };
 
 }  // namespace welkin::viewer

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/viewer/frame_loop.hpp"
 #include "apps/viewer/model/command_line.hpp"
@@ -51,6 +52,9 @@ void Viewer::handle(const Event& event) {
       if (static_cast<int>(event.x) != platform_->width() || static_cast<int>(event.y) != platform_->height())
         platform_->resize(static_cast<int>(event.x), static_cast<int>(event.y));
       break;
+    case EventKind::padAxis:
+      pad_[static_cast<std::size_t>(event.axis)] = event.x;
+      break;
     case EventKind::text:
       break;
   }
@@ -69,6 +73,10 @@ void Viewer::pressed(Key key) {
       bench_.helpShown = false;
     else
       ImGui::SetWindowFocus(nullptr);
+    return;
+  }
+  if (flight_ && flightKey(key)) {
+    swallowText_ = true;
     return;
   }
   if (key >= Key::digit1 && key <= Key::digit9 && !modifiers.alt && !modifiers.shift) {
@@ -199,6 +207,7 @@ void Viewer::perform(Action action, const std::string& argument) {
 
 // What held keys do, and time.
 void Viewer::move(double seconds) {
+  if (flight_) return fly(seconds);
   Camera camera = bench_.document.scene().camera;
   Thrust thrust;
   const Modifiers modifiers = interface_.modifiers();
@@ -229,6 +238,12 @@ void Viewer::move(double seconds) {
 void Viewer::dragView(const glm::vec2& by) {
   Camera camera = bench_.document.scene().camera;
   const glm::vec2 drag = by / static_cast<float>(std::max(region().width, 1));
+  if (flight_) {
+    const double fov = static_cast<double>(camera.fov);
+    gaze_.yaw = std::remainder(gaze_.yaw + fov * static_cast<double>(drag.x), 6.283185307179586);
+    gaze_.pitch = std::clamp(gaze_.pitch - fov * static_cast<double>(drag.y), -1.2, 1.2);
+    return;
+  }
   bench_.navigation.stop();
   switch (*dragging_) {
     case MouseButton::left:

@@ -99,6 +99,10 @@ void Viewer::takeScene() {
     if (files != texturesOf_) textures_ = options_.loadTextures(scene);
     texturesOf_ = files;
     picture_.setScene(scene, textures_);
+    if (flight_) {
+      flight_->setScene(scene, textures_.weatherMaps, textures_.grids);
+      scenery_->setWind(scene.wind);
+    }
     drawn_ = std::move(light);
   } catch (const Error& e) {
     bench_.complain(e.what());

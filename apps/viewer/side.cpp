@@ -58,6 +58,8 @@ void Viewer::drawPanels() {
 void Viewer::drawTabs() {
   if (!ImGui::BeginTabBar("##tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
   for (const TabInfo& info : kTabs) {
+    // The aircraft is the camera, and the reference knows nothing of it.
+    if (flight_ && (info.tab == Tab::camera || info.tab == Tab::reference)) continue;
     const bool wanted = bench_.wantedTab == info.tab;
     const bool shown =
         ImGui::BeginTabItem(info.title, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);

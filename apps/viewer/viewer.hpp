@@ -1,9 +1,12 @@
 #pragma once
-// `welkin view`: a window on a sky. The command hands in what it knows and the viewer does not: presets, files.
+// `welkin view`, a window on a sky, and `welkin fly`, an aircraft in it. The command hands in what it knows and the
+// viewer does not: presets, files.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/viewer/flight/flight.hpp"
 #include "welkin/base/image.hpp"
 #include "welkin/realtime/renderer.hpp"
 #include "welkin/scene/scene.hpp"
@@ -12,6 +15,14 @@ namespace welkin::viewer {
 
 struct PresetFile {
   std::string name, genus, sentence, file;
+};
+
+// An aircraft in place of the free camera.
+struct FlyOptions {
+  FlightStart start = FlightStart::runway;
+  std::string record;  // a script of what was flown, written at the end; empty for none
+  std::string frames;  // a folder for the frames of a script as PNG; empty for none
+  int every = 1;       // frame of a script that is drawn
 };
 
 struct ViewerOptions {
@@ -24,6 +35,7 @@ struct ViewerOptions {
   bool headless = false;
   std::string script;      // a file of input; empty for none
   std::string screenshot;  // a PNG of the window at the script's end, or of the first picture at rest; empty for none
+  std::optional<FlyOptions> fly{};
   std::vector<PresetFile> presets;
   // Pictures and volumes that a scene names. Throws Error (badInput).
   std::function<realtime::CustomTextures(const Scene&)> loadTextures;

@@ -50,6 +50,7 @@ std::shared_ptr<bool> addJsonFlag(CLI::App& command);
 void addHdri(CLI::App& app);
 void addRender(CLI::App& app);
 void addView(CLI::App& app);
+void addFly(CLI::App& app);
 void addCompare(CLI::App& app);
 void addPresets(CLI::App& app);
 void addFields(CLI::App& app);

@@ -52,6 +52,7 @@ int run(int argc, char** argv) {
   app.failure_message([](const CLI::App*, const CLI::Error&) { return std::string(); });
   addRender(app);
   addView(app);
+  addFly(app);
   addHdri(app);
   addCompare(app);
   addPresets(app);

@@ -15,14 +15,16 @@ namespace welkin::gl {
   F(BINDSAMPLER, BindSampler) F(BINDTEXTURE, BindTexture) F(BINDVERTEXARRAY, BindVertexArray) \
   F(BLENDEQUATIONSEPARATE, BlendEquationSeparate) F(BLENDFUNCSEPARATE, BlendFuncSeparate) \
   F(BLITFRAMEBUFFER, BlitFramebuffer) F(BUFFERDATA, BufferData) F(BUFFERSUBDATA, BufferSubData) \
-  F(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) F(CLEAR, Clear) F(CLEARCOLOR, ClearColor) \
+  F(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) F(CLEAR, Clear) F(CLEARBUFFERFV, ClearBufferfv) \
+  F(CLEARCOLOR, ClearColor) \
   F(COLORMASK, ColorMask) F(COMPILESHADER, CompileShader) F(COPYTEXSUBIMAGE3D, CopyTexSubImage3D) \
   F(CREATEPROGRAM, CreateProgram) \
   F(CREATESHADER, CreateShader) F(DELETEBUFFERS, DeleteBuffers) F(DELETEFRAMEBUFFERS, DeleteFramebuffers) \
   F(DELETEPROGRAM, DeleteProgram) F(DELETEQUERIES, DeleteQueries) F(DELETESAMPLERS, DeleteSamplers) \
   F(DELETESHADER, DeleteShader) F(DELETETEXTURES, DeleteTextures) F(DELETEVERTEXARRAYS, DeleteVertexArrays) \
   F(DEPTHFUNC, DepthFunc) F(DEPTHMASK, DepthMask) F(DISABLE, Disable) F(DRAWARRAYS, DrawArrays) \
-  F(DRAWARRAYSINSTANCED, DrawArraysInstanced) F(DRAWBUFFERS, DrawBuffers) F(ENABLE, Enable) F(FINISH, Finish) \
+  F(DRAWARRAYSINSTANCED, DrawArraysInstanced) F(DRAWBUFFERS, DrawBuffers) F(DRAWELEMENTS, DrawElements) \
+  F(ENABLE, Enable) F(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray) F(FINISH, Finish) \
   F(FLUSH, Flush) F(FRAMEBUFFERTEXTURE2D, FramebufferTexture2D) \
   F(FRAMEBUFFERTEXTURELAYER, FramebufferTextureLayer) F(GENBUFFERS, GenBuffers) \
   F(GENFRAMEBUFFERS, GenFramebuffers) F(GENQUERIES, GenQueries) F(GENSAMPLERS, GenSamplers) \
@@ -40,11 +42,12 @@ namespace welkin::gl {
   F(UNIFORM1UI, Uniform1ui) F(UNIFORM2F, Uniform2f) F(UNIFORM2I, Uniform2i) F(UNIFORM3F, Uniform3f) \
   F(UNIFORM4F, Uniform4f) F(UNIFORM4I, Uniform4i) F(UNIFORM4FV, Uniform4fv) F(UNIFORMBLOCKBINDING, UniformBlockBinding) \
   F(UNIFORMMATRIX3FV, UniformMatrix3fv) F(UNIFORMMATRIX4FV, UniformMatrix4fv) F(USEPROGRAM, UseProgram) \
+  F(VERTEXATTRIBPOINTER, VertexAttribPointer) \
   F(VIEWPORT, Viewport) F(CULLFACE, CullFace)
 // Absent from some contexts that we serve; null there.
 #define WELKIN_GL_OPTIONAL_FUNCTIONS(F) \
   F(QUERYCOUNTER, QueryCounter) F(GETQUERYOBJECTUI64V, GetQueryObjectui64v) F(GETTEXIMAGE, GetTexImage) \
-  F(POLYGONMODE, PolygonMode)
+  F(POLYGONMODE, PolygonMode) F(CLIPCONTROL, ClipControl)
 // clang-format on
 
 struct Api {

@@ -104,14 +104,20 @@ Chord chordNamed(std::string_view name);
 
 enum class MouseButton { left, right, middle };
 
-enum class EventKind { mouseMove, mouseButton, wheel, key, text, drop, resize, quit };
+// Of a gamepad: sticks from -1 to 1, right and down positive; triggers from 0 to 1. Its buttons are keys.
+enum class PadAxis { leftX, leftY, rightX, rightY, leftTrigger, rightTrigger };
+inline constexpr int kPadAxes = static_cast<int>(PadAxis::rightTrigger) + 1;
+
+enum class EventKind { mouseMove, mouseButton, wheel, key, padAxis, text, drop, resize, quit };
 
 struct Event {
   EventKind kind = EventKind::quit;
-  float x = 0.0f, y = 0.0f;  // mouseMove: pixels from the upper left; wheel: clicks; resize: new size in pixels
+  float x = 0.0f, y = 0.0f;  // mouseMove: pixels from the upper left; wheel: clicks; resize: new size in pixels;
+                             // padAxis: where it stands, in x
   MouseButton button = MouseButton::left;
   bool down = false;  // mouseButton, key
   Key key = Key::none;
+  PadAxis axis = PadAxis::leftX;
   std::string text{};  // text: UTF-8; drop: path of a file
 };
 

@@ -38,6 +38,7 @@ constexpr std::array kVerbs{Verb{"size", "size WIDTH HEIGHT", 2, 2},
                             Verb{"screenshot", "screenshot FILE", 1, 1, true},
                             Verb{"picture", "picture FILE", 1, 1, true},
                             Verb{"do", "do ACTION [ARGUMENT]", 1, 2, true},
+                            Verb{"fly", "fly FRAMES [NAME=VALUE ...], for example fly 120 throttle=1 pitch=0.2", 1, 8},
                             Verb{"quit", "quit", 0, 0}};
 
 [[noreturn]] void refuse(const std::string& name, int line, const std::string& what) {
@@ -99,7 +100,7 @@ std::string wrongWith(const ScriptStep& step, const Verb& verb) {
   if (button && w.size() > places && !buttonOf(w[places])) return usage;
   if (verb.name == "size" && (!countOf(w[0], 16384) || !countOf(w[1], 16384))) return usage;
   if (verb.name == "wheel" && !numberOf(w[0])) return usage;
-  if (verb.name == "frames" && !countOf(w[0], 100000)) return usage;
+  if ((verb.name == "frames" || verb.name == "fly") && !countOf(w[0], 100000)) return usage;
   if ((verb.name == "key" || verb.name == "hold") && chordNamed(w[0]).key == Key::none)
     return fmt::format("'{}' is not a key: write for example a, f5, pageup, ctrl+shift+z", w[0]);
   if (verb.name == "hold" && !countOf(w[1], 100000)) return usage;
@@ -234,6 +235,9 @@ bool ScriptPlayer::expand(const ScriptStep& step, const FindItem& find, bool set
         {{Event{.kind = EventKind::resize, .x = *numberOf(words[0]), .y = *numberOf(words[1])}}, {}, false});
   } else if (verb == "frames") {
     for (int i = *countOf(words[0], 100000); i > 0; --i) queue_.emplace_back();
+  } else if (verb == "fly") {
+    queue_.push_back({{}, step, false});
+    for (int i = *countOf(words[0], 100000); i > 1; --i) queue_.emplace_back();
   } else if (verb == "quit") {
     queue_.push_back({{Event{.kind = EventKind::quit}}, {}, false});
   } else {

@@ -39,7 +39,8 @@ class ScriptPlayer {
 
   struct Frame {
     std::vector<Event> events;
-    std::optional<ScriptStep> command;  // "screenshot", "picture" or "do", for the viewer, after the frame is drawn
+    std::optional<ScriptStep> command;  // "screenshot", "picture" or "do", for the viewer, after the frame is drawn;
+                                        // "fly" before it
     bool finished = false;              // there is nothing more
   };
   // `settled`: the picture on screen will not change by itself. Throws Error (badInput) for an item that does not

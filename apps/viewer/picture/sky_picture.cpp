@@ -83,9 +83,9 @@ int turnsOf(const Quality& quality) {
 
 // A view with its target.
 struct Canvas {
-  gl::Texture light;
-  gl::Framebuffer framebuffer;
-  GLint name = 0;
+  gl::Texture light, depth;
+  gl::Framebuffer framebuffer, withDepth;
+  GLint name = 0, depthName = 0;
   realtime::View view;
   int frames = 0;  // since it was begun anew
 
@@ -99,6 +99,19 @@ struct Canvas {
     gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
     view.reset();
     frames = 0;
+    depth = {};
+  }
+
+  // A foreground needs depth besides.
+  void fitDepth(const gl::Api& gl) {
+    if (depth) return;
+    depth = gl::Texture(gl, gl::Texture::Kind::plane, gl::kDepth32F, light.width(), light.height(), 0,
+                        gl::Filter::nearest, gl::Addressing::clamp, nullptr);
+    if (!depthName) withDepth = gl::Framebuffer(gl);
+    const gl::Texture* targets[] = {&light};
+    withDepth.target(targets);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.id(), 0);
+    gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &depthName);
   }
 };
 
@@ -124,6 +137,8 @@ struct SkyPicture::State {
   int width = 0, height = 0;
   bool changed = true;  // the scene, since the last frame
   std::string driver;
+  Foreground* foreground = nullptr;
+  bool clipsFromZero = false;  // clip space may reach from 0, which keeps reversed depth precise
 
   explicit State(const gl::Loader& loader)
       : gl(gl::loadApi(loader)), renderer(loader), triangle(gl),
@@ -133,6 +148,8 @@ struct SkyPicture::State {
               gl::Addressing::clamp, nullptr) {
     const auto* text = gl.GetString(GL_RENDERER);
     driver = text ? reinterpret_cast<const char*>(text) : "unknown";
+    const bool has = gl.major * 10 + gl.minor >= 45 || gl.hasExtension("GL_ARB_clip_control");
+    clipsFromZero = has && gl.ClipControl;
   }
 
   const Canvas& shown() const { return stillShown ? still : moving; }
@@ -161,8 +178,56 @@ struct SkyPicture::State {
     gl.Disable(GL_SCISSOR_TEST);
     gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
     gl.Clear(GL_COLOR_BUFFER_BIT);
-    renderer.render(canvas.view, frame);
+    if (foreground)
+      renderWithForeground(canvas, frame);
+    else
+      renderer.render(canvas.view, frame);
     ++canvas.frames;
+  }
+
+  void renderWithForeground(Canvas& canvas, realtime::Frame& frame) {
+    canvas.fitDepth(gl);
+    frame.background = realtime::Background::sky;
+    frame.origin = glm::dvec2(frame.position);
+    frame.position = {0.0, 0.0, frame.position.z};
+    if (!clipsFromZero) {
+      // The viewport halves depths and adds a half.
+      frame.projection[2][2] = 1.0f;
+      frame.projection[3][2] *= 2.0f;
+      frame.depthRange = realtime::DepthRange::minusOneToOne;
+    }
+    const Foreground::Bind bind = [&](unsigned program) {
+      renderer.bindHost(canvas.view, program, {.firstUnit = 0, .uniformBlock = 0});
+    };
+    const auto begin = [&] {
+      gl.BindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(canvas.depthName));
+      gl.Viewport(0, 0, canvas.light.width(), canvas.light.height());
+      if (clipsFromZero) gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+      gl.Enable(GL_DEPTH_TEST);
+      gl.DepthFunc(GL_GREATER);
+    };
+    const auto end = [&] {
+      gl.Disable(GL_DEPTH_TEST);
+      gl.DepthFunc(GL_LESS);
+      if (clipsFromZero) gl.ClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    };
+    renderer.prepare(canvas.view, frame);
+    begin();
+    gl.DepthMask(GL_TRUE);
+    const float farthest = 0.0f;
+    gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
+    foreground->drawSurfaces(frame, bind);
+    end();
+    frame.depthTexture = canvas.depth.id();
+    renderer.render(canvas.view, frame);
+    begin();
+    gl.DepthMask(GL_FALSE);
+    gl.Enable(GL_BLEND);
+    gl.BlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
+    gl.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    foreground->drawGlass(frame, bind);
+    gl.Disable(GL_BLEND);
+    end();
   }
 };
 
@@ -177,6 +242,11 @@ void SkyPicture::setScene(const Scene& scene, const realtime::CustomTextures& te
   if (s.wanted == scene.quality) return;
   s.wanted = scene.quality;
   s.makeGovernor();
+}
+
+void SkyPicture::setForeground(Foreground* foreground) {
+  state_->foreground = foreground;
+  state_->changed = true;
 }
 
 void SkyPicture::cut() {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/viewer/picture/foreground.hpp"
 #include "apps/viewer/picture/reference.hpp"
 #include "welkin/base/image.hpp"
 #include "welkin/gl/loader.hpp"
@@ -28,6 +29,8 @@ class SkyPicture {
 
   // Throws Error (badInput) for what the scene names and cannot be used.
   void setScene(const Scene& scene, const realtime::CustomTextures& textures);
+  // Draws this under the sky from now on, as long as it lives; its origin moves along with the camera.
+  void setForeground(Foreground* foreground);
   // Forgets what was seen: the next frame shows the new sky whole, however long that takes.
   void cut();
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "apps/viewer/platform/platform.hpp"
 #include "welkin/base/error.hpp"
@@ -26,6 +27,8 @@ struct Sdl {
     SDL_SetHint(SDL_HINT_VIDEO_HIGHDPI_DISABLED, "0");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     if (SDL_Init(SDL_INIT_VIDEO) != 0) refuse("SDL finds no display");
+    // A gamepad is welcome, not needed.
+    SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);
   }
   ~Sdl() { SDL_Quit(); }
   Sdl(const Sdl&) = delete;
@@ -95,6 +98,45 @@ Key keyOf(SDL_Keycode code) {
   }
 }
 
+// What the buttons of a gamepad do is what these keys do.
+Key keyOf(SDL_GameControllerButton button) {
+  switch (button) {
+    case SDL_CONTROLLER_BUTTON_A:
+      return Key::c;
+    case SDL_CONTROLLER_BUTTON_B:
+      return Key::b;
+    case SDL_CONTROLLER_BUTTON_LEFTSHOULDER:
+      return Key::g;
+    case SDL_CONTROLLER_BUTTON_RIGHTSHOULDER:
+      return Key::f;
+    case SDL_CONTROLLER_BUTTON_BACK:
+      return Key::backspace;
+    case SDL_CONTROLLER_BUTTON_START:
+      return Key::space;
+    default:
+      return Key::none;
+  }
+}
+
+std::optional<PadAxis> axisOf(SDL_GameControllerAxis axis) {
+  switch (axis) {
+    case SDL_CONTROLLER_AXIS_LEFTX:
+      return PadAxis::leftX;
+    case SDL_CONTROLLER_AXIS_LEFTY:
+      return PadAxis::leftY;
+    case SDL_CONTROLLER_AXIS_RIGHTX:
+      return PadAxis::rightX;
+    case SDL_CONTROLLER_AXIS_RIGHTY:
+      return PadAxis::rightY;
+    case SDL_CONTROLLER_AXIS_TRIGGERLEFT:
+      return PadAxis::leftTrigger;
+    case SDL_CONTROLLER_AXIS_TRIGGERRIGHT:
+      return PadAxis::rightTrigger;
+    default:
+      return std::nullopt;
+  }
+}
+
 class SdlWindow final : public Platform {
  public:
   explicit SdlWindow(const WindowOptions& options) {
@@ -116,6 +158,7 @@ class SdlWindow final : public Platform {
     measure();
   }
   ~SdlWindow() override {
+    if (pad_) SDL_GameControllerClose(pad_);
     SDL_GL_DeleteContext(context_);
     SDL_DestroyWindow(window_);
   }
@@ -204,6 +247,26 @@ class SdlWindow final : public Platform {
         if (e.type == SDL_KEYDOWN && e.key.repeat) break;
         out.push_back({.kind = EventKind::key, .down = e.type == SDL_KEYDOWN, .key = keyOf(e.key.keysym.sym)});
         break;
+      case SDL_CONTROLLERDEVICEADDED:
+        if (!pad_) pad_ = SDL_GameControllerOpen(e.cdevice.which);
+        break;
+      case SDL_CONTROLLERDEVICEREMOVED:
+        if (!pad_ || SDL_GameControllerGetAttached(pad_)) break;
+        SDL_GameControllerClose(pad_);
+        pad_ = nullptr;
+        for (int i = 0; i < kPadAxes; ++i) out.push_back({.kind = EventKind::padAxis, .axis = static_cast<PadAxis>(i)});
+        break;
+      case SDL_CONTROLLERAXISMOTION:
+        if (const auto axis = axisOf(static_cast<SDL_GameControllerAxis>(e.caxis.axis)))
+          out.push_back({.kind = EventKind::padAxis,
+                         .x = std::clamp(static_cast<float>(e.caxis.value) / 32767.0f, -1.0f, 1.0f),
+                         .axis = *axis});
+        break;
+      case SDL_CONTROLLERBUTTONDOWN:
+      case SDL_CONTROLLERBUTTONUP:
+        if (const Key key = keyOf(static_cast<SDL_GameControllerButton>(e.cbutton.button)); key != Key::none)
+          out.push_back({.kind = EventKind::key, .down = e.type == SDL_CONTROLLERBUTTONDOWN, .key = key});
+        break;
       case SDL_TEXTINPUT:
         out.push_back({.kind = EventKind::text, .text = e.text.text});
         break;
@@ -219,6 +282,7 @@ class SdlWindow final : public Platform {
   Sdl sdl_;
   SDL_Window* window_ = nullptr;
   SDL_GLContext context_ = nullptr;
+  SDL_GameController* pad_ = nullptr;
   gl::Loader loader_ = [](const char* name) { return SDL_GL_GetProcAddress(name); };
   int width_ = 1, height_ = 1;
 };

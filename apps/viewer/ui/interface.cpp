@@ -155,6 +155,7 @@ void Interface::feed(const Event& event) {
     case EventKind::text:
       io.AddInputCharactersUTF8(event.text.c_str());
       break;
+    case EventKind::padAxis:
     case EventKind::drop:
     case EventKind::resize:
     case EventKind::quit:
