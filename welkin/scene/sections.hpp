@@ -61,8 +61,8 @@ std::string setField(Scene& scene, std::string_view assignment);
 // A value as --set and the sky file write it, shortest text that gives the same bits; texts stand in quotes.
 std::string formatValue(const Field& field, const FieldValue& value);
 
-// True when the two have the same layers, sheets, grids, classical and hero clouds and keyframes and every parameter is the
-// same.
+// True when the two have the same layers, sheets, grids, classical and hero clouds and keyframes and every parameter is
+// the same.
 bool sameScene(const Scene& a, const Scene& b);
 
 }  // namespace welkin
