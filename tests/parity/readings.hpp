@@ -9,7 +9,7 @@
 #include "welkin/scene/law.hpp"
 
 #define WELKIN_BASE_LAW "welkin/base/law.glsl", "welkin/base/tone.glsl"
-#define WELKIN_LIGHT_LAW "welkin/light/phase.glsl", "welkin/light/transmittance.glsl"
+#define WELKIN_LIGHT_LAW "welkin/light/phase.glsl", "welkin/light/transmittance.glsl", "welkin/light/slab.glsl"
 #define WELKIN_NOISE_LAW                                                                                           \
   "welkin/noise/hash.glsl", "welkin/noise/remap.glsl", "welkin/noise/lattice.glsl", "welkin/noise/perlin.glsl",    \
       "welkin/noise/simplex.glsl", "welkin/noise/worley.glsl", "welkin/noise/fbm.glsl", "welkin/noise/gamma.glsl", \

@@ -67,7 +67,7 @@ TEST_P(ClearSky, HasThePublishedRadiance) {
   scene.camera.position = {0.0, 0.0, 200.0};
   scene.camera.heading = static_cast<float>(c.viewAzimuth * kDegree);
   scene.camera.pitch = static_cast<float>((90.0 - c.viewZenith) * kDegree);
-  scene.camera.fov = static_cast<float>(1.0 * kDegree);
+  scene.camera.fov = static_cast<float>(0.5 * kDegree);
   const TraceLayers layers = trace(scene, {.width = 32, .height = 32, .samples = 256, .sunDisc = SunDisc::leftOut});
   const Mean mean = meanOf(layers);
   const glm::dvec3 found = mean.value / glm::dvec3(kSunIrradiance);
@@ -234,6 +234,26 @@ TEST(PathTracer, TransmittanceIsTheIntegralOfExtinction) {
   EXPECT_NEAR(ours, exact, 5.0);
 }
 
+// A step that ended exactly at a sheet's lower face once flew through it: dark rings in the sky.
+TEST(PathTracer, NoRayMissesASheet) {
+  Scene scene = withoutAir();
+  scene.layers.clear();
+  Sheet sheet;
+  sheet.kind = SheetKind::cirrostratus;
+  sheet.height = 8200.0f;
+  sheet.opticalDepth = 20.0f;
+  sheet.coverage = 1.0f;
+  scene.sheets = {sheet};
+  scene.camera.position = {0.0, 0.0, 120.0};
+  scene.camera.pitch = static_cast<float>(25.0 * kDegree);
+  scene.camera.fov = static_cast<float>(0.5 * kDegree);
+  const TraceLayers layers = trace(scene, {.width = 8, .height = 256, .samples = 32});
+  float most = 0.0f;
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 8; ++x) most = std::max(most, *layers.transmittance.at(x, y));
+  EXPECT_LT(most, 0.02f);  // exp(-20 / sin) but for thin places of the veil
+}
+
 // A cube of constant extinction, turned and placed: Beer-Lambert along its axis; and half of a picture that it fills.
 TEST(PathTracer, SeesThroughGrids) {
   VoxelGrid voxels({24, 24, 24}, {0.0, 0.0, 0.0}, {10.0, 10.0, 10.0});
@@ -246,7 +266,7 @@ TEST(PathTracer, SeesThroughGrids) {
   const PlacedGrid grid = placed(scene.grids.front(), std::make_shared<VoxelGrid>(voxels));
   scene.camera.position = {620.0, 100.0, 1020.0};  // looks north at the middle of the cube's south face
   scene.camera.heading = scene.camera.pitch = 0.0f;
-  scene.camera.fov = static_cast<float>(1.0 * kDegree);
+  scene.camera.fov = static_cast<float>(0.5 * kDegree);
   const auto clearOf = [&] {
     PathTracer tracer(scene, {.grids = std::span(&grid, 1)}, {.width = 32, .height = 32, .samples = 64});
     EXPECT_TRUE(tracer.run({}));

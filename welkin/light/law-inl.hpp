@@ -12,6 +12,7 @@ namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/base/law_begin.inc"
 #include "welkin/light/phase.glsl"
 #include "welkin/light/transmittance.glsl"
+#include "welkin/light/slab.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::HWY_NAMESPACE::law
 HWY_AFTER_NAMESPACE();

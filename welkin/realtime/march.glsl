@@ -33,18 +33,13 @@ FN MarchResult march(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunLow, IN(Vec3) sun
   // Octaves of multiple scattering (Wrenninge 2013, Hillaire 2016): each with less energy, less extinction and a rounder
   // phase function than the one before.
   Real cosTheta = dot(dir, sun);
-  MiePhase droplets;
-  droplets.gHG = m.droplets.x;
-  droplets.gDraine = m.droplets.y;
-  droplets.alpha = m.droplets.z;
-  droplets.wDraine = m.droplets.w;
   Real phases[8];
   float octaveGain = 1.0f;
   float roundness = 1.0f;
   for (int i = 0; i < 8; ++i) {
     phases[i] = octaveGain * mix(phaseHenyeyGreenstein(cosTheta, Real(m.forwardG * roundness)),
                                  phaseHenyeyGreenstein(cosTheta, Real(m.backwardG * roundness)), Real(m.backwardWeight));
-    if (i == 0 && m.useDroplets != 0) phases[i] = phaseMie(cosTheta, droplets);
+    if (i == 0) phases[i] = dropletPhase(cosTheta, m);
     if (i >= m.octaves) phases[i] = Real(0.0f);
     if (i == 0) octaveGain = m.octaveGain;
     octaveGain *= m.contribution;

@@ -6,12 +6,17 @@
 //   const int kRains, Vec2 skyRain(Vec3 q, Sky)
 // whether anything falls, and (its extinction in 1/m, the share of that which is snow).
 
-// The sheet's light over its opacity: a thin layer lit through half of itself.
-FN Vec3 sheetSource(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Vec3) sunlight, IN(MarchParams) m) {
-  Real phase = 2.7f * mix(Real(phaseIsotropic()), phaseHenyeyGreenstein(cosTheta, Real(0.75f)), Real(0.7f));
-  Real reach = exp(-0.5f * tau / max(slant, 0.1f));
-  return sunlight * (phase * (0.25f + 0.75f * reach)) + xyz(m.ambientSky) * (0.6f * m.ambientSky.w) +
-         xyz(m.ambientGround) * 0.15f;
+// Light that a sheet sends along the ray: the sun's, and without direction that of the sky and of the ground, of which what
+// it lets through stands in for what lies behind it.
+FN Vec3 sheetLight(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Real) view, IN(Mask) below, IN(Vec3) sunlight,
+                   IN(SheetParams) s, IN(MarchParams) m) {
+  float g = 1.0f - sheetTurned(s);
+  Real phase = s.kind == kSheetAltocumulus ? dropletPhase(cosTheta, m) : phaseHenyeyGreenstein(cosTheta, Real(g));
+  Real lit = slabRadiance(phase, cosTheta, g, tau, max(slant, 0.02f), view, below);
+  Vec3 sky = xyz(m.ambientSky) * m.ambientSky.w;
+  Real behind = slabDiffuse(g, tau);
+  Vec3 around = mix(xyz(m.ambientGround), sky, select(below, behind, 1.0f - behind));
+  return sunlight * (lit * smoothstep(0.0f, 0.02f, slant)) + around * (1.0f - exp(-tau / view));
 }
 
 // Air that clouds shade: how much of it does not see the sun, and the radiance of that part, which is lit from all sides,
@@ -181,13 +186,16 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
     Vec3 normal = normalize(up * m.planet.up.w + dir * t);
     Real vertical = sheetOpticalDepth(Vec2(dir.x * t, dir.y * t), s);
     Real slant = dot(sun, normal);
-    Real opaque = select(seen, 1.0f - exp(-vertical / max(abs(dot(dir, normal)), 0.12f)), Real(0.0f));
+    Real rise = dot(dir, normal);
+    Real view = max(abs(rise), 0.12f);
+    Real opaque = select(seen, 1.0f - exp(-vertical / view), Real(0.0f));
     Vec3 sunlight = irradiance * lookupTransmittanceToSun(transmittance, air, Real(s.height), slant);
     // Below tops of clouds it stands in their shade.
     if (kLightVolume != 0 && s.height < m.top)
       sunlight = sunlight * exp(-kReduced * skySunDepth(cloudSpace(dir * t, m.planet), sky));
     lookupAerial(aerialInscatter, aerialTransmittance, air, dir, t, inscatter, through);
-    Vec3 light = (sheetSource(cosTheta, vertical, slant, sunlight, m) * through + inscatter) * opaque;
+    Vec3 light = sheetLight(cosTheta, vertical, slant, view, rise > 0.0f, sunlight, s, m) * through + inscatter * opaque;
+    light = select(seen, light, Vec3(0.0f));
     Mask front = t < r.depth;
     radiance = select(front, light + radiance * (1.0f - opaque), radiance + light * kept);
     kept = kept * (1.0f - opaque);

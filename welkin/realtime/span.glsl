@@ -9,6 +9,18 @@ struct MarchResult {
   Real samples;       // density samples taken
 };
 
+// Phase function of light that cloud droplets scatter for the first time, 1/sr.
+FN Real dropletPhase(IN(Real) cosTheta, IN(MarchParams) m) {
+  MiePhase droplets;
+  droplets.gHG = m.droplets.x;
+  droplets.gDraine = m.droplets.y;
+  droplets.alpha = m.droplets.z;
+  droplets.wDraine = m.droplets.w;
+  Real lobes = mix(phaseHenyeyGreenstein(cosTheta, Real(m.forwardG)), phaseHenyeyGreenstein(cosTheta, Real(m.backwardG)),
+                   Real(m.backwardWeight));
+  return m.useDroplets != 0 ? phaseMie(cosTheta, droplets) : lobes;
+}
+
 // The part of a ray that may meet clouds, and where it meets the ground (1e9 where it does not); m.
 struct RaySpan {
   Real start, end, ground;

@@ -251,7 +251,7 @@ class Paths {
       const Mask inside = both(h > low, h < high);
       const Real exit = select(up, Real(high) - h, h - low);
       const Real entry = select(up, Real(low) - h, h - high);
-      const Mask ahead = either(inside, entry > 0.0f);
+      const Mask ahead = either(inside, entry >= 0.0f);  // 0: it has just arrived
       reach = select(ahead, law::min(reach, select(inside, exit, entry) * inverse), reach);
       return inside;
     };

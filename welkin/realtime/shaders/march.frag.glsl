@@ -2,6 +2,7 @@
 #include "welkin/base/law.glsl"
 #include "welkin/light/phase.glsl"
 #include "welkin/light/transmittance.glsl"
+#include "welkin/light/slab.glsl"
 #include "welkin/atmosphere/atmosphere.glsl"
 #include "welkin/atmosphere/scattering.glsl"
 #include "welkin/atmosphere/models.glsl"

@@ -21,11 +21,7 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
   vec3 sun = m.sun.xyz, up = m.planet.up.xyz;
   RaySpan span = raySpan(dir, limit, m);
   float cosTheta = dot(dir, sun);
-  MiePhase droplets = MiePhase(m.droplets.x, m.droplets.y, m.droplets.z, m.droplets.w);
-  float first = m.useDroplets != 0 ? phaseMie(cosTheta, droplets)
-                                   : mix(phaseHenyeyGreenstein(cosTheta, m.forwardG),
-                                         phaseHenyeyGreenstein(cosTheta, m.backwardG), m.backwardWeight);
-  first *= m.octaveGain;
+  float first = m.octaveGain * dropletPhase(cosTheta, m);
   float broad = phaseHenyeyGreenstein(cosTheta, 0.6);
   float inverseShell = 1.0 / (m.top - m.bottom);
 

@@ -1,0 +1,49 @@
+// Light that a thin plane layer of matter scatters, when a parallel beam falls on it and nothing is absorbed.
+
+// (exp(-a) - exp(-b)) / (b - a), also where the two are alike.
+FN Real slabBetween(IN(Real) a, IN(Real) b) { return exp(-min(a, b)) * stepIntegral(abs(a - b), 1.0f); }
+
+// Phase function of light that has been scattered toward the eye once and `more` times on the mean within its forward peak.
+// Henyey-Greenstein functions convolve to one whose mean cosine is the product of theirs.
+FN Real slabPhase(IN(Real) phase, IN(Real) cosTheta, IN(float) g, IN(Real) more) {
+  Real weight = exp(-more);
+  Real rest = 1.0f - weight;
+  Real sum = weight * phase;
+  float broad = g;
+  for (int i = 1; i < 4; ++i) {
+    broad *= g;
+    weight = weight * more / float(i);
+    rest -= weight;
+    sum += weight * phaseHenyeyGreenstein(cosTheta, Real(broad));
+  }
+  return sum + rest * phaseHenyeyGreenstein(cosTheta, Real(broad * g));
+}
+
+// Radiance for each unit of the beam's irradiance. `tau`: vertical optical depth; `beam`, `view`: sines of the height of
+// the light and of the eye's ray over the layer, both above 0; `beyond`: whether the eye is on the other side than the
+// light; `phase`: phase function between the two in 1/sr, of mean cosine g, and `cosTheta` its cosine.
+// Scattered once, under the depth that is left without the forward peak (Nakajima and Tanaka 1988), which broadens what
+// it lets pass; scattered more often by the Eddington solution of what is left (Joseph et al. 1976), in the middle.
+// Against photons (tests/light/slab_test.cpp): within a tenth up to a depth of .2, 30 % and .01 1/sr up to 3.
+FN Real slabRadiance(IN(Real) phase, IN(Real) cosTheta, IN(float) g, IN(Real) tau, IN(Real) beam, IN(Real) view,
+                     IN(Mask) beyond) {
+  float peak = g * g;
+  float left = g / (1.0f + g);
+  Real depth = (1.0f - peak) * tau;
+  Real a = depth / view;
+  Real b = depth / beam;
+  Real once = a * select(beyond, slabBetween(a, b), stepIntegral(a + b, 1.0f));
+  Real broad = 0.45f * peak / (1.0f - peak) * (a + b);
+  broad = select(beyond, broad, min(broad, 1.0f));
+  Real dim = exp(-b);
+  Real drive = 0.238732415f * beam;  // 3 / (4 pi)
+  Real flow = drive * (beam * (1.0f - dim) + 0.666666667f * (1.0f + dim)) / (1.33333333f + (1.0f - left) * depth);
+  Real middle = exp(-0.5f * b);
+  Real along = flow - drive * middle;
+  Real mean = drive * (beam * (1.0f - middle) + 0.666666667f) - flow * (0.666666667f + 0.5f * (1.0f - left) * depth);
+  Real often = max(mean + left * along * select(beyond, view, -view), 0.0f) * (1.0f - exp(-a));
+  return slabPhase(phase, cosTheta, g, broad) / (1.0f - peak) * once + often;
+}
+
+// How much of the light without direction that enters one side of such a layer leaves through the other.
+FN Real slabDiffuse(IN(float) g, IN(Real) tau) { return 1.0f / (1.0f + 0.75f * (1.0f - g) * tau); }
