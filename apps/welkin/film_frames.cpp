@@ -21,9 +21,9 @@ namespace {
 
 constexpr int kStretch = 48;    // frames that depend on each other
 constexpr int kWarmRounds = 2;  // of the interleave, drawn before a stretch begins
-constexpr int kUsualDraws = 4;
 constexpr int kMeterWidth = 64, kMeterHeight = 36, kMeterSamples = 8;
 
+// Draws until every pixel has been marched.
 int interleaveOf(const Scene& scene) {
   const int edge = scene.quality.reprojection ? scene.quality.interleave : 1;
   return edge * edge;
@@ -130,9 +130,7 @@ Span missingIn(const FrameFolder& folder, int begin) {
 }  // namespace
 
 int drawsOf(const Shot& shot, const FrameOptions& options) {
-  if (options.draws > 0) return options.draws;
-  const int turns = interleaveOf(shot.scene);
-  return shot.path == ShotPath::timelapse ? turns : std::min(turns, kUsualDraws);
+  return options.draws > 0 ? options.draws : interleaveOf(shot.scene);
 }
 
 void drawFrames(const Shot& shot, const FrameOptions& options, FrameFolder& folder) {

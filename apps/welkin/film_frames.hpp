@@ -11,12 +11,12 @@ enum class SampleDepth { bits8, bits16 };
 
 struct FrameOptions {
   int width = 1280, height = 720;
-  int draws = 0;  // of the real-time renderer for one frame; 0: as many as the path needs
+  int draws = 0;  // of the real-time renderer for one frame; 0: until every pixel is new
   SampleDepth depth = SampleDepth::bits8;
   Progress progress{};  // over what is missing
 };
 
-// How often a frame is drawn: where time races past, until every pixel is of this moment; else the history helps.
+// How often a frame is drawn.
 int drawsOf(const Shot& shot, const FrameOptions& options);
 
 // Draws the frames that the folder lacks. Each stretch of frames begins anew, drawn in over the frames before it, so

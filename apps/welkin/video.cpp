@@ -191,7 +191,8 @@ void addVideo(CLI::App& app) {
       ->type_name("NAME");
   command
       ->add_option("--draws", a.draws,
-                   "real time: how often each frame is drawn; 4, for timelapse until every pixel is new")
+                   "real time: how often each frame is drawn; if not given, until every pixel is new. Fewer are faster "
+                   "and coarser where much moves")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command
