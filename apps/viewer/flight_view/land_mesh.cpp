@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "apps/viewer/flight_view/buffer_offset.hpp"
 #include "welkin/base/parallel.hpp"
 
 namespace welkin::viewer {
@@ -145,8 +146,7 @@ void LandMesh::draw(const gl::Program& program, const glm::dvec3& eye, const glm
         continue;
       constexpr std::size_t kCount = static_cast<std::size_t>(kBlockCells) * kBlockCells * 6;
       const std::size_t offset = static_cast<std::size_t>(block) * kCount * sizeof(std::uint32_t);
-      gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(kCount), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(offset));
+      gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(kCount), GL_UNSIGNED_INT, bufferOffset(offset));
     }
   }
 }

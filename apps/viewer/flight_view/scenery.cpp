@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <string>
 
+#include "apps/viewer/flight_view/buffer_offset.hpp"
 #include "apps/viewer/flight_view/land_shader.hpp"
 #include "welkin/realtime/shader_sources.hpp"
 
@@ -173,7 +174,7 @@ ModelBuffer::ModelBuffer(const gl::Api& gl, const ModelMesh& mesh)
                 mesh.indices.data(), GL_STATIC_DRAW);
   const auto attribute = [&](GLuint index, GLint size, std::size_t offset) {
     gl.EnableVertexAttribArray(index);
-    gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(ModelVertex), reinterpret_cast<const void*>(offset));
+    gl.VertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(ModelVertex), bufferOffset(offset));
   };
   attribute(0, 3, offsetof(ModelVertex, position));
   attribute(1, 3, offsetof(ModelVertex, normal));
