@@ -155,7 +155,7 @@ std::string unknownParameter(const Scene& scene, std::span<const Section> sectio
 std::string setField(Scene& scene, std::string_view assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) refuse(assignment, "write it as key=value, for example sun.elevation=20");
-  const std::string path = withListNumber(trimmed(assignment.substr(0, equals)));
+  std::string path = withListNumber(trimmed(assignment.substr(0, equals)));
   const std::string_view text = trimmed(assignment.substr(equals + 1));
   const std::vector<Section> sections = sectionsOf(scene);
   const Parameter p = findParameter(sections, path);
