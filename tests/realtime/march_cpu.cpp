@@ -15,6 +15,7 @@
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
+#include "welkin/realtime/air_shade.glsl"
 
 struct Sky {
   std::vector<LayerParams> layers;
@@ -52,6 +53,7 @@ FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky
 const int kLightVolume = 0;
 FN Real skySunDepth(IN(Vec3), IN(Sky)) { return 0.0f; }
 FN Vec2 skyBelow(IN(Vec2), IN(Sky)) { return Vec2(0.0f); }
+FN AirShade skyAirShade(IN(Sky)) { return {Vec4(0.0f), Vec4(0.0f)}; }
 const int kRains = 1;
 FN Vec2 skyRain(IN(Vec3) q, IN(Sky) sky) {
   Vec2 sum(0.0f);

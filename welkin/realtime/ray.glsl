@@ -1,8 +1,8 @@
 // What one ray of the picture shows: clouds, sheets and ground, with the air in between; not the sky behind. The
 // reader supplies skySheetCount(Sky) and skySheet(int, Sky) besides what the march asks for, and
-//   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky)
-// whether there is a light volume, its optical depth toward the sun, and the light without direction that comes down
-// below the clouds; and
+//   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky), AirShade skyAirShade(Sky)
+// whether there is a light volume, its optical depth toward the sun, the light without direction that comes down below
+// the clouds, and the shade along the ray (air_shade.glsl, to be included before); and
 //   const int kRains, Vec2 skyRain(Vec3 q, Sky)
 // whether anything falls, and (its extinction in 1/m, the share of that which is snow).
 
@@ -19,32 +19,29 @@ FN Vec3 sheetLight(IN(Real) cosTheta, IN(Real) tau, IN(Real) slant, IN(Real) vie
   return sunlight * (lit * smoothstep(0.0f, 0.02f, slant)) + around * (1.0f - exp(-tau / view));
 }
 
-// Air that clouds shade: how much of it does not see the sun, and the radiance of that part, which is lit from all sides,
-// in kcd/m^2.
+// Air that clouds shade: how much of it does not see the sun, in segments with a light volume and all in all without, and
+// the radiance of that part, which is lit from all sides, in kcd/m^2.
 struct ShadedAir {
   Vec3 radiance;
   Real share;
+  AirShade segments;
 };
 
-// The air on the way to `distance`, with a light volume: samples where light is scattered toward the eye, `loss` being
-// what a metre of it takes away.
-FN ShadedAir shadedAir(IN(Vec3) dir, IN(Real) distance, IN(Real) loss, IN(Real) jitter, IN(Vec3) sunlight,
-                       IN(MarchParams) m, IN(Sky) sky) {
+// The air on the way to `distance`, each metre taking `loss` of the light.
+FN ShadedAir shadedAir(IN(Vec3) dir, IN(Real) distance, IN(Real) loss, IN(Vec3) sunlight, IN(MarchParams) m,
+                       IN(Sky) sky) {
   ShadedAir s;
   s.radiance = xyz(m.shadedAir);
   s.share = Real(m.shadedAir.w);
+  s.segments = skyAirShade(sky);
   if (kLightVolume == 0 && m.planet.altitude >= m.bottom) s.share = Real(0.0f);
   if (kLightVolume != 0) {
     Real end = 1.0f - exp(-loss * distance);
-    Real dark = 0.0f;
     Vec2 below = Vec2(0.0f);
-    for (int i = 0; i < 4; ++i) {
-      Real t = -log(max(1.0f - end * (0.25f * (float(i) + jitter)), 1e-6f)) / max(loss, 1e-7f);
-      Vec3 q = cloudSpace(dir * min(t, distance), m.planet);
-      dark += 0.25f * (1.0f - exp(-kReduced * skySunDepth(q, sky)));
-      below = below + 0.25f * skyBelow(Vec2(q.x, q.y), sky);
+    for (int i = 0; i < 2; ++i) {
+      Vec3 d = dir * min(-log(1.0f - end * (0.25f + 0.5f * float(i))) / max(loss, 1e-7f), distance);
+      below = below + 0.5f * skyBelow(Vec2(d.x, d.y), sky);
     }
-    s.share = dark;
     s.radiance = (sunlight * below.x + xyz(m.ambientSky) * (3.14159265f * below.y)) * xyz(m.shadedAir);
   }
   return s;
@@ -55,7 +52,9 @@ FN void airBefore(IN(Vec3) dir, IN(Real) distance, IN(ShadedAir) shaded, IN(Atmo
                   IN(Sampler3) aerialInscatter, IN(Sampler3) aerialTransmittance, OUT(Vec3) inscatter,
                   OUT(Vec3) through) {
   lookupAerial(aerialInscatter, aerialTransmittance, air, dir, distance, inscatter, through);
-  inscatter = mix(inscatter, shaded.radiance * (Vec3(1.0f) - through), shaded.share);
+  Real share = shaded.share;
+  if (kLightVolume != 0) share = shadeBefore(shaded.segments, distance, lossOf(through, distance));
+  inscatter = mix(inscatter, shaded.radiance * (Vec3(1.0f) - through), share);
 }
 
 // What the sheets above a point of cloud space leave of sunlight that comes from a height of sine `slant`, where no light
@@ -157,13 +156,14 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Real reach = select(ground, tGround, max(leave.y, 0.0f));
   reach = min(select(r.transmittance < 0.5f, min(r.depth, reach), reach), min(limit, Real(m.maxDistance)));
   lookupAerial(aerialInscatter, aerialTransmittance, air, dir, reach, inscatter, through);
-  Real loss = -log(clamp(through.y, 1e-4f, 1.0f)) / max(reach, 1.0f);
-  ShadedAir shaded = shadedAir(dir, reach, loss, jitter.y, sunLow, m, sky);
+  Real loss = lossOf(through, reach);
+  ShadedAir shaded = shadedAir(dir, reach, loss, sunLow, m, sky);
   // What is seen past the clouds is the sky of its table, which knows no shade.
   Vec3 missing = Vec3(0.0f);
   if (kLightVolume != 0)
     missing = (shaded.radiance * (Vec3(1.0f) - through) - inscatter) *
-              (m.skyBehind * select(either(ground, limit < 5e7f), Real(0.0f), shaded.share));
+              (m.skyBehind *
+               select(either(ground, limit < 5e7f), Real(0.0f), shadeBefore(shaded.segments, reach, loss)));
   airBefore(dir, r.depth, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
   Real fade = 1.0f - smoothstep(0.55f * m.maxDistance, 0.98f * m.maxDistance, r.depth);
   Real opacity = (1.0f - r.transmittance) * fade;

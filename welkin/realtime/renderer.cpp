@@ -34,6 +34,7 @@ namespace {
 
 constexpr int kBlueNoiseSize = 64;
 constexpr int kMostWait = 16;               // frames
+constexpr int kAirShadePixels = 16;         // edge in the picture of a texel of the shade in the air
 constexpr std::size_t kMaxVoxelClouds = 8;  // grids, classical and hero clouds together
 constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
@@ -78,7 +79,7 @@ TextureName nameOf(const gl::Texture& t) { return {t.id(), t.width(), t.height()
 
 struct View::State {
   int width = 0, height = 0, interleave = 0;
-  gl::Texture marched, marchedDepth, samples;
+  gl::Texture marched, marchedDepth, samples, airShade;
   std::array<gl::Texture, 2> history;
   int current = 0;          // history that was written last
   int frames = 0;           // since the last reset
@@ -112,7 +113,7 @@ struct Renderer::State {
   gl::Api gl;
   gl::VertexArray triangle;
   gl::Framebuffer framebuffer;
-  gl::UniformBuffer frameBuffer, layersBuffer, marchBuffer, weatherBuffer, nightBuffer, lightningBuffer;
+  gl::UniformBuffer frameBuffer, layersBuffer, marchBuffer, weatherBuffer, nightBuffer, lightningBuffer, volumeBuffer;
   SkyTables sky;
   Timers timers;
   Scene scene;
@@ -134,7 +135,7 @@ struct Renderer::State {
   double cloudTime = 0.0;               // s, that classical clouds were made for
   std::vector<PlacedGrid> placedGrids;  // those handed over
   float gridExtinction = 0.0f;          // their greatest, 1/m
-  gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram;
+  gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram, airShadeProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
@@ -148,7 +149,7 @@ struct Renderer::State {
 
   explicit State(const gl::Loader& loader)
       : gl(gl::loadApi(loader)), framebuffer(gl), frameBuffer(gl), layersBuffer(gl), marchBuffer(gl), weatherBuffer(gl),
-        nightBuffer(gl), lightningBuffer(gl), sky(gl), timers(gl), falling(gl) {
+        nightBuffer(gl), lightningBuffer(gl), volumeBuffer(gl), sky(gl), timers(gl), falling(gl) {
     triangle = gl::VertexArray(gl);
     const std::array<unsigned char, 4> texel{255, 255, 255, 255};
     white = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, 1, 1, 0, gl::Filter::nearest, gl::Addressing::repeat,
@@ -161,6 +162,8 @@ struct Renderer::State {
     resolveFirstRound = gl::Program(gl, "resolve, first round", "#define FIRST_ROUND\n", resolveText, shaderSource);
     weatherProgram =
         gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
+    airShadeProgram =
+        gl::Program(gl, "shade in the air", "", fileText("welkin/realtime/shaders/air_shade.frag.glsl"), shaderSource);
   }
 
   static bool replacesNoise(const CustomTextures& custom) {
@@ -248,6 +251,7 @@ struct Renderer::State {
   void weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift);
   void lightPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
                  const FrameParams& params);
+  void airShadePass(View::State& view, const Frame& frame);
   void marchPass(View::State& view, const Frame& frame);
   void resolvePass(View::State& view, const gl::Program& program);
   void lightningOf(const glm::dvec2& place, double time);
@@ -609,6 +613,32 @@ void Renderer::State::bindClouds(const gl::Program& program, int unit) const {
   }
 }
 
+// How clouds shade the air along the rays of the view (shaders/air_shade.frag.glsl).
+void Renderer::State::airShadePass(View::State& view, const Frame& frame) {
+  if (!light) {
+    view.airShade = gl::Texture();
+    return;
+  }
+  const int width = (frame.width + kAirShadePixels - 1) / kAirShadePixels;
+  const int height = 2 * ((frame.height + kAirShadePixels - 1) / kAirShadePixels);
+  if (view.airShade.width() != width || view.airShade.height() != height)
+    view.airShade = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba16F, width, height, 0, gl::Filter::linear,
+                                gl::Addressing::clamp, nullptr);
+  const gl::Texture* targets[] = {&view.airShade};
+  framebuffer.target(targets);
+  gl.UseProgram(airShadeProgram.id());
+  airShadeProgram.bindBlock("Frame", kFrameBlock);
+  airShadeProgram.bindBlock("Volume", kLayersBlock);
+  airShadeProgram.bindBlock("March", kMarchBlock);
+  const law::LightVolumeParams volume = light->params();
+  volumeBuffer.upload(&volume, sizeof volume);
+  frameBuffer.bind(kFrameBlock);
+  volumeBuffer.bind(kLayersBlock);
+  marchBuffer.bind(kMarchBlock);
+  bind(airShadeProgram, "uSun", light->sun(), 0);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   std::vector<const gl::Texture*> targets{&view.marched, &view.marchedDepth};
   if (counting) targets.push_back(&view.samples);
@@ -634,6 +664,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   if (light) {
     bind(march, "uSun", light->sun(), unit++);
     bind(march, "uDiffuse", light->diffuse(), unit++);
+    bind(march, "uAirShade", view.airShade, unit++);
     if (weather) bind(march, "uBounds", weather->bounds(), unit++);
   }
   bindClouds(march, unit);
@@ -787,6 +818,8 @@ void Renderer::prepare(View& view, const Frame& frame) {
   s.weatherPass(v, place, drift);
   s.lightPass(v, frame, position, drift, params);
   v.lightDrawn = true;
+  s.frameBuffer.upload(&params, sizeof params);
+  s.airShadePass(v, frame);
   s.keepForHost(v, frame, params);
   s.gl.check("preparing a frame");
 }
@@ -809,6 +842,7 @@ void Renderer::bindHost(const View& view, unsigned program, const HostBindings& 
                                   {"uWelkinThrough", GL_TEXTURE_3D, &s.sky.aerialTransmittance()},
                                   {"uWelkinSunDepth", GL_TEXTURE_3D, s.light ? &s.light->sun() : nullptr},
                                   {"uWelkinDiffuse", GL_TEXTURE_3D, s.light ? &s.light->diffuse() : nullptr},
+                                  {"uWelkinAirShade", GL_TEXTURE_2D, s.light ? &v.airShade : nullptr},
                                   {"uWelkinRain", GL_TEXTURE_2D, rains(s.scene) ? &s.falling.map() : nullptr}};
   realtime::bindHost(s.gl, program, bindings.firstUnit, bindings.uniformBlock, v.hostBuffer, samplers);
 }
@@ -886,6 +920,8 @@ void Renderer::render(View& view, const Frame& frame) {
   s.lightPass(v, frame, position, drift, unlocked);
   v.lightDrawn = false;
   s.timers.mark("light volume");
+  s.airShadePass(v, frame);
+  s.timers.mark("air shade");
   s.marchPass(v, frame);
   s.timers.mark("march");
   const bool average = s.scene.quality.averageHistory && history != History::none;
@@ -959,6 +995,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   add("view: march colour", view.state_->marched);
   add("view: march depth", view.state_->marchedDepth);
   add("view: samples", view.state_->samples);
+  add("view: shade in the air", view.state_->airShade);
   add("view: history a", view.state_->history[0]);
   add("view: history b", view.state_->history[1]);
   return rows;

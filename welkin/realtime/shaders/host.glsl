@@ -19,6 +19,7 @@ precision highp sampler3D;
 #include "welkin/density/weather.glsl"
 #include "welkin/precipitation/precipitation.glsl"
 #include "welkin/realtime/light_volume.glsl"
+#include "welkin/realtime/shaders/air_shade_picture.glsl"
 #include "welkin/realtime/host_params.glsl"
 
 layout(std140) uniform WelkinHost { HostParams uWelkin; };
@@ -29,6 +30,7 @@ uniform sampler3D uWelkinInscatter;
 uniform sampler3D uWelkinThrough;
 uniform sampler3D uWelkinSunDepth;
 uniform sampler3D uWelkinDiffuse;
+uniform sampler2D uWelkinAirShade;
 uniform sampler2D uWelkinRain;
 
 // Light that falls on a point.
@@ -76,6 +78,12 @@ vec3 skyBelow(vec2 place, vec3 sunAbove) {
   return sunAbove * below.x + uWelkin.ambientSky.xyz * (3.14159265 * below.y);
 }
 
+// Where the picture shows a vector from the eye, in [0, 1].
+vec2 pictureAt(vec3 d) {
+  vec4 p = vec4(d, 1.0);
+  return vec2(dot(uWelkin.clip0, p), dot(uWelkin.clip1, p)) / max(dot(uWelkin.clip3, p), 1e-6) * 0.5 + 0.5;
+}
+
 // The air's own light toward the eye, part of which the clouds shade (as in the march).
 vec3 shadedInscatter(vec3 dir, float distance_, vec3 inscatter, vec3 through) {
   if (uWelkin.hasVolume < 0.5) {
@@ -83,16 +91,13 @@ vec3 shadedInscatter(vec3 dir, float distance_, vec3 inscatter, vec3 through) {
     return mix(inscatter, uWelkin.shadedAir.xyz * (1.0 - through), above ? 0.0 : uWelkin.shadedAir.w);
   }
   vec3 sunAbove = sunAt(uWelkin.bottom, vec3(0.0));
-  float loss = -log(clamp(through.y, 1e-4, 1.0)) / max(distance_, 1.0);
-  float end = 1.0 - exp(-loss * distance_);
-  float dark = 0.0;
+  float loss = lossOf(through, distance_), end = 1.0 - exp(-loss * distance_);
   vec3 light = vec3(0.0);
-  for (int i = 0; i < 4; ++i) {  // where equal shares of the light come from
-    float t = -log(max(1.0 - end * (0.25 * float(i) + 0.125), 1e-6)) / max(loss, 1e-7);
-    vec3 q = cloudSpace(dir * min(t, distance_), uWelkin.planet);
-    dark += 0.25 * (1.0 - sunShareAt(q));
-    light += 0.25 * skyBelow(q.xy, sunAbove);
+  for (int i = 0; i < 2; ++i) {  // where equal shares of the light come from
+    float t = -log(1.0 - end * (0.25 + 0.5 * float(i))) / max(loss, 1e-7);
+    light += 0.5 * skyBelow(dir.xy * min(t, distance_), sunAbove);
   }
+  float dark = shadeBefore(lookupAirShade(pictureAt(dir), uWelkinAirShade), distance_, loss);
   return mix(inscatter, light * uWelkin.shadedAir.xyz * (1.0 - through), dark);
 }
 
@@ -160,8 +165,7 @@ WelkinFront welkinAir(vec3 fromEye) {
 WelkinFront welkinFront(vec3 fromEye) {
   WelkinFront front = welkinAir(fromEye);
   vec3 d = eastNorthUpOf(fromEye);
-  vec4 p = vec4(d, 1.0);
-  vec2 uv = vec2(dot(uWelkin.clip0, p), dot(uWelkin.clip1, p)) / max(dot(uWelkin.clip3, p), 1e-6) * 0.5 + 0.5;
+  vec2 uv = pictureAt(d);
   vec4 clouds = textureLod(uWelkinClouds, uv, 0.0);
   float whole = -log(clamp(clouds.a, 0.01, 1.0));  // optical depth
   float mean_ = whole < 0.02 ? 0.5 * whole : 1.0 - whole / (exp(whole) - 1.0);  // of what is seen of it

@@ -18,11 +18,14 @@ uniform sampler3D uSun;
 uniform sampler3D uDiffuse;
 uniform sampler2D uHostDepth;
 uniform sampler2D uBlueNoise;
+uniform sampler2D uAirShade;
 
 #ifdef LIGHT_VOLUME
 const int kLightVolume = 1;
+AirShade skyAirShade(Sky sky) { return sky.airShade; }
 #else
 const int kLightVolume = 0;
+AirShade skyAirShade(Sky sky) { return AirShade(vec4(0.0), vec4(0.0)); }
 #endif
 float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolume, uSun); }
 int skySheetCount(Sky sky) { return SHEET_COUNT; }
@@ -93,6 +96,9 @@ void main() {
                   fract(0.5 + 0.61803399 * round_));
   Sky sky;
   sky.dither = blueNoise(pixel, ivec2(47, 13), round_ * uOptions.y);
+#ifdef LIGHT_VOLUME
+  sky.airShade = lookupAirShade(uv, uAirShade);
+#endif
   vec4 colour;
   float depth, samples;
   renderRay(normalize(ray), limit, jitter, uMarch, uAir, uTransmittance, uAerialInscatter, uAerialTransmittance, sky,

@@ -13,9 +13,11 @@
 #include "welkin/scene/rain.glsl"
 #include "welkin/realtime/grid.glsl"
 #include "welkin/realtime/light_volume.glsl"
+#include "welkin/realtime/shaders/air_shade_picture.glsl"
 
 struct Sky {
   float dither;
+  AirShade airShade;  // of a ray of the march
 };
 
 layout(std140) uniform Layers {

@@ -1,0 +1,33 @@
+// How much of the air before the eye clouds shade: its mean over eight segments of a ray, each as long as all before it
+// but the first. A coarse picture of the view holds them (shaders/air_shade.frag.glsl), so that shafts of light and shade
+// are smooth where samples of each pixel's own would be grain.
+
+struct AirShade {
+  Vec4 near, far;  // the first four segments, the others
+};
+
+const float kShadeFirst = 500.0f;  // m, the first segment's end; the last one's is 64 km
+
+// What a metre of air takes of the light, from what `distance` m let through.
+FN Real lossOf(IN(Vec3) through, IN(Real) distance) {
+  return -log(clamp(through.y, 1e-4f, 1.0f)) / max(distance, 1.0f);
+}
+
+// Share of the light that a segment from `start` to `end` m scatters toward the eye, each metre taking `loss` of it.
+FN Real segmentLight(IN(float) start, IN(float) end, IN(Real) distance, IN(Real) loss) {
+  return exp(-loss * min(Real(start), distance)) - exp(-loss * min(Real(end), distance));
+}
+
+// Share of the air's light on the way to `distance` that is scattered in shade.
+FN Real shadeBefore(IN(AirShade) s, IN(Real) distance, IN(Real) loss) {
+  const float f = kShadeFirst;
+  Real dark = segmentLight(0.0f, f, distance, loss) * s.near.x;
+  dark += segmentLight(f, 2.0f * f, distance, loss) * s.near.y;
+  dark += segmentLight(2.0f * f, 4.0f * f, distance, loss) * s.near.z;
+  dark += segmentLight(4.0f * f, 8.0f * f, distance, loss) * s.near.w;
+  dark += segmentLight(8.0f * f, 16.0f * f, distance, loss) * s.far.x;
+  dark += segmentLight(16.0f * f, 32.0f * f, distance, loss) * s.far.y;
+  dark += segmentLight(32.0f * f, 64.0f * f, distance, loss) * s.far.z;
+  dark += segmentLight(64.0f * f, 1e8f, distance, loss) * s.far.w;
+  return min(dark / max(1.0f - exp(-loss * distance), 1e-6f), Real(1.0f));
+}
