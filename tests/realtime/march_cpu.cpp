@@ -15,7 +15,6 @@
 
 namespace welkin::law {
 #include "welkin/base/law_begin.inc"
-#include "welkin/realtime/air_shade.glsl"
 
 struct Sky {
   std::vector<LayerParams> layers;

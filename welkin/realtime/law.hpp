@@ -8,6 +8,7 @@ namespace welkin::law {
 #include "welkin/base/law_begin.inc"
 #include "welkin/realtime/grid.glsl"
 #include "welkin/realtime/light_volume.glsl"
+#include "welkin/realtime/air_shade.glsl"
 #include "welkin/realtime/march_params.glsl"
 #include "welkin/realtime/host_params.glsl"
 #include "welkin/realtime/lightning.glsl"

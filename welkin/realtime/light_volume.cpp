@@ -20,9 +20,6 @@ constexpr double kAgeing = 20.0;      // s in which noise that drifts at a speed
 constexpr float kLeastSlant = 0.03f;  // a sun that is lower shines as from here
 // Steps of relaxation of a level that starts from the coarser one, and of one that knew most of its light.
 constexpr int kFirstSteps = 8, kNextSteps = 3;
-// Sunlight that has been turned aside once or twice, counted as light without direction by this share: see
-// march_params.cpp.
-constexpr float kBeam = 0.17f;
 // What one slice of each pass costs, in proportion (llvmpipe).
 constexpr double kDensityWork = 6.0, kSunWork = 1.0, kStartWork = 0.5, kDownWork = 2.0, kUpWork = 1.0, kCopyWork = 0.4;
 constexpr GLuint kBlockBinding = 3;
@@ -228,7 +225,7 @@ double LightVolume::go(const CloudPasses& clouds, gl::Framebuffer& framebuffer, 
         if (ends) job.phase = Phase::up;
         break;
       case Phase::up:
-        diffuseUp(framebuffer, count, steps);
+        diffuseUp(framebuffer, count);
         if (ends) job.phase = ++job.round == steps ? Phase::publish : Phase::down;
         break;
       case Phase::publish:
@@ -352,12 +349,10 @@ void LightVolume::diffuseDown(gl::Framebuffer& framebuffer, int count) {
   }
 }
 
-void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count, int steps) {
+void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count) {
   use(columnPass_);
   bind(columnPass_, "uDiffuse", light_, kUnits + 1);
-  bind(columnPass_, "uSun", steps_, kUnits + 2);
   bind(columnPass_, "uShare", share_, kUnits + 4);
-  gl_.Uniform1f(columnPass_.uniform("uBeam"), job_->round == steps - 1 ? kBeam : 0.0f);
   for (int s = job_->slice; s < job_->slice + count; ++s) {
     const auto turn = static_cast<std::size_t>(s & 1);
     slice(columnPass_, s);

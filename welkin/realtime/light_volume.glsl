@@ -63,14 +63,19 @@ FN Real lookupSunDepth(IN(Vec3) q, IN(Real) dither, IN(LightVolumeParams) v, IN(
   return sunDepthIn(lightVolumeLevel(above, dither, v), above, v, sun);
 }
 
-// The light that comes down on what lies below the clouds there, without direction, per irradiance of the sun and per
-// radiance of the sky times pi. What lies below sees much of the sky: the coarsest level.
-FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) diffuse) {
+// Where the coarsest level knows what comes out of the clouds below.
+FN Vec3 placeBelow(IN(Vec2) p, IN(LightVolumeParams) v) {
   float last = float(v.levels.count) - 1.0f;
   ClipLevel level = v.levels.level2;
   if (v.levels.count > 3) level = v.levels.level3;
-  Vec2 uv = p * level.inverseSize + Vec2(level.offsetX, level.offsetY);
-  return 2.0f * xy(sample3(diffuse, Vec3(uv.x, uv.y, (last * v.slices + 0.5f) * v.inverseDepth)));
+  return Vec3(p.x * level.inverseSize + level.offsetX, p.y * level.inverseSize + level.offsetY,
+              Real((last * v.slices + 0.5f) * v.inverseDepth));
+}
+
+// The light that comes down on what lies below the clouds there, without direction, per irradiance of the sun and per
+// radiance of the sky times pi. What lies below sees much of the sky: the coarsest level.
+FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) diffuse) {
+  return 2.0f * xy(sample3(diffuse, placeBelow(p, v)));
 }
 
 // How freely light passes from a cell of extinction `own` (1/m) to its neighbour of `other`, `h` m away (x), and through

@@ -85,7 +85,7 @@ class LightVolume {
   void fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& framebuffer, int count, int doublings);
   void start(gl::Framebuffer& framebuffer, int count);
   void diffuseDown(gl::Framebuffer& framebuffer, int count);
-  void diffuseUp(gl::Framebuffer& framebuffer, int count, int steps);
+  void diffuseUp(gl::Framebuffer& framebuffer, int count);
   void publish(gl::Framebuffer& framebuffer);
   void use(const gl::Program& program);
   void sunUniform(const gl::Program& program) const;

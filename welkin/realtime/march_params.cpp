@@ -16,7 +16,7 @@ constexpr int kZenithSteps = 64, kHorizonSteps = 128;
 constexpr float kStepPerMetre = 0.004f, kMinStep = 12.0f, kMaxStep = 250.0f;  // look: the coarsest without hatching
 constexpr float kFar = 300000.0f;                                             // m, where clouds have faded into the air
 // Toward the sun before the light volume: so far in all, about a texel of it.
-constexpr float kNearReach = 105.0f, kNearRatio = 2.0f;
+constexpr float kNearReach = 105.0f, kNearRatio = 2.2f;
 constexpr int kMaxTurns = 20000;  // a cap that no ray of a plausible sky meets; a test counts
 
 // How much of a closed layer's depth the marches toward the light have to see, lest its underside be lit as if sun and
@@ -99,8 +99,8 @@ SkyLight belowSheets(const Scene& scene, SkyLight light, float sunHeight) {
 
 // Sunlight on its way through a cloud that has been turned aside but once or twice counts as light without direction,
 // by this share of an irradiance of 1 (isotropic: 1/4), since what the light volume's cells know of it is blurred:
-// fitted to the path tracer on bench/error.cpp's cumulus and stratocumulus together with light_volume.cpp's kBeam.
-constexpr float kBeam = 0.04f;
+// fitted to the path tracer on bench/error.cpp's cumulus and stratocumulus and on altocumulus.
+constexpr float kBeam = 0.18f;
 
 // Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
 // top: by eye, until it is fitted to a reference.
@@ -190,7 +190,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
     m.lightSteps = std::clamp(q.lightSteps / 4, 1, 3);
     m.ambientSteps = 0;
     m.lightRatio = kNearRatio;
-    m.nearReach = kNearReach / (std::exp2(static_cast<float>(m.lightSteps)) - 1.0f);
+    m.nearReach = kNearReach;
   }
   if (l.model == LightingModel::nubis) {
     m.nubis = 1;

@@ -18,7 +18,7 @@ struct MarchParams {
   int octaves, lightSteps, ambientSteps, refine;
   int fixedSteps, fixedStepsHorizon, cheapSearch, nubis;
   int maxTurns, groundSteps, useDroplets;
-  float nearReach;      // m, the first near step toward the sun where the light volume's cells are finest
+  float nearReach;      // m, all near steps toward the sun where the light volume's cells are finest
   float lightRatio;  // each step toward the sun against the last
   float transportPath;  // m, on which light inside the clouds forgets its direction
   float beam;           // share of the sun's light that reaches a place, counted as light without direction

@@ -4,8 +4,6 @@
 uniform sampler3D uDiffuse;  // Q
 uniform sampler3D uShare;    // P
 uniform sampler2D uBelow;    // the slice below
-uniform sampler3D uSun;
-uniform float uBeam;         // share of the beam to add
 
 layout(location = 0) out vec4 oLight;
 
@@ -13,7 +11,5 @@ void main() {
   ivec3 cell = ivec3(ivec2(gl_FragCoord.xy), int(uSlice.z));
   vec2 light = texelFetch(uDiffuse, cell, 0).xy;
   if (cell.z > 0) light += texelFetch(uShare, cell, 0).x * texelFetch(uBelow, cell.xy, 0).xy;
-  float cloudy = 1.0 - exp(-kClearing * texelFetch(uDensity, cell, 0).x);
-  light.x += uBeam * cloudy * exp(-kReduced * texelFetch(uSun, cell, 0).x);
   oLight = vec4(light, 0.0, 1.0);
 }

@@ -17,12 +17,20 @@ float spacingAt(float t, MarchParams m) {
   return min(clamp(t * m.stepScale, m.minStep, m.maxStep), kEyeStep + kEyeGrowth * t);
 }
 
+// Radiance of the ground round the foot of a place, as much of it as clouds see.
+vec3 groundUnder(vec2 p, vec3 sunLow, MarchParams m, Sky sky) {
+  float direct = max(m.sun.z, 0.0) * exp(-kReduced * textureLod(uSun, placeBelow(p, uVolume), 0.0).x);
+  vec2 below = skyBelow(p, sky);
+  return m.groundAlbedo.xyz * (sunLow * ((direct + below.x) / 3.14159265) + m.ambientSky.xyz * below.y);
+}
+
 MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter, MarchParams m, Sky sky) {
   vec3 sun = m.sun.xyz, up = m.planet.up.xyz;
   RaySpan span = raySpan(dir, limit, m);
   float cosTheta = dot(dir, sun);
   float first = m.octaveGain * dropletPhase(cosTheta, m);
   float broad = phaseHenyeyGreenstein(cosTheta, 0.6);
+  vec3 ground = groundUnder(dir.xy * span.start, sunLow, m, sky);
   float inverseShell = 1.0 / (m.top - m.bottom);
 
   float t = span.start;
@@ -71,11 +79,14 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
     }
     if (t >= span.end) break;
 
-    // Toward the sun: near steps as far as the volume's cells are wide, each with a place of its own for every point anew.
+    // Toward the sun: near steps as far as the volume's cells are wide, the wider the more of them, each with a place of
+    // its own for every point anew.
     vec4 level = lightVolumeLevel(q, sky.dither, uVolume);
+    int steps = m.lightSteps + int(level.w);
     float way = 0.0, tau = 0.0;
-    float step_ = m.nearReach * lightVolumeCoarseness(level, uVolume);
-    for (int k = 0; k < m.lightSteps; ++k) {
+    float step_ = m.nearReach * lightVolumeCoarseness(level, uVolume) * (m.lightRatio - 1.0) /
+                  (pow(m.lightRatio, float(steps)) - 1.0);
+    for (int k = 0; k < steps; ++k) {
       float within = fract(jitter.y + 0.61803399 * float(k) + 0.38196601 * points);
       vec3 at = cloudSpace(dir * t + sun * (way + step_ * within), m.planet);
       tau += step_ * skyExtinction(at, max(t * m.footprintPerMetre, max(0.5 * spacing, 0.3 * step_)), true, sky).x;
@@ -99,7 +110,7 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
     float turned = (spread.x + m.beam * forward) * 0.318309886;
     vec3 source = sunlight * ((first * straight + broad * (forward - straight)) * powder + turned);
     source += m.ambientSky.xyz * (m.ambientSky.w * spread.y);
-    source += m.ambientGround.xyz * (m.ambientGround.w * (1.0 - spread.y));
+    source += ground * (m.ambientGround.w * (1.0 - spread.y));
 #ifdef LIGHTNING
     source += skyLightning(q, sky);
 #endif

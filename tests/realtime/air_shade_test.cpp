@@ -1,0 +1,55 @@
+// Shade in the air between the eye and what it sees.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/realtime/stage.hpp"
+#include "welkin/realtime/law.hpp"
+
+namespace welkin::realtime::test {
+namespace {
+
+TEST(AirShade, EvenShadeIsTheSameAtAnyDistance) {
+  const law::AirShade even{glm::vec4(0.3f), glm::vec4(0.3f)};
+  for (const float distance : {1.0f, 400.0f, 3000.0f, 50000.0f, 200000.0f})
+    for (const float loss : {1e-6f, 3e-5f, 1e-3f})
+      EXPECT_NEAR(law::shadeBefore(even, distance, loss), 0.3f, loss * distance < 1e-4f ? 0.05f : 1e-3f)
+          << distance << " m, " << loss;  // single precision, where next to nothing is scattered
+}
+
+TEST(AirShade, CountsSegmentsByTheLightThatComesFromThem) {
+  // Shade from 4 km on.
+  const law::AirShade far{glm::vec4(0.0f), glm::vec4(1.0f)};
+  EXPECT_EQ(law::shadeBefore(far, 3900.0f, 1e-4f), 0.0f);
+  for (const float distance : {6000.0f, 30000.0f}) {
+    const double kept = std::exp(-0.4), end = std::exp(-1e-4 * distance);
+    EXPECT_NEAR(law::shadeBefore(far, distance, 1e-4f), (kept - end) / (1.0 - end), 1e-4);
+  }
+}
+
+// Black ground under broken clouds, toward the horizon: all that is seen is air.
+TEST(AirShade, DoesNotDependOnTheJitter) {
+  Scene scene = plainScene(LayerShape::profile);
+  scene.quality.lightVolume = true;
+  scene.layers[0].weather.coverage = 0.5f;
+  scene.ground.albedo = glm::vec3(0.0f);
+  scene.atmosphere.haze = 1e-4f;
+  scene.atmosphere.hazeHeight = 2000.0f;
+  scene.camera.pitch = -0.06f;
+  scene.camera.fov = 0.1f;
+  Stage stage(48, 27);
+  const Image even = stage.draw(scene);
+  scene.quality.jitter = true;
+  const Image jittered = stage.draw(scene);
+  scene.layers.clear();
+  const Image clear = stage.draw(scene);
+  const double mean = statistics(even).mean;
+  EXPECT_LT(mean, 0.9 * statistics(clear).mean);
+  double most = 0.0;
+  for (std::size_t i = 0; i < even.pixels.size(); ++i)
+    most = std::max(most, std::abs(double(even.pixels[i]) - jittered.pixels[i]));
+  EXPECT_LT(most, 2e-3 * mean);  // half floats; grain of four samples was a hundred times that
+}
+
+}  // namespace
+}  // namespace welkin::realtime::test
