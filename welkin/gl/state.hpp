@@ -8,7 +8,7 @@ namespace welkin::gl {
 
 // Records on construction, restores on destruction: program, vertex array, framebuffers, viewport, scissor, colour and
 // depth masks, blending, culling, depth, stencil, polygon mode, sRGB writes, active texture, textures and samplers of
-// units 0 to 15, uniform buffers 0 to 7 with their ranges, pixel store and pixel buffers. In between the state is what
+// units 0 to 23, uniform buffers 0 to 7 with their ranges, pixel store and pixel buffers. In between the state is what
 // full-screen passes need: all tests, blending and culling off, samplers and pixel buffers unbound, pixels tightly
 // packed.
 class StateGuard {
@@ -19,7 +19,7 @@ class StateGuard {
   StateGuard& operator=(const StateGuard&) = delete;
 
  private:
-  static constexpr int kUnits = 16, kBuffers = 8, kToggles = 9, kStores = 10;
+  static constexpr int kUnits = 24, kBuffers = 8, kToggles = 9, kStores = 10;
   struct Unit {
     GLint plane, volume, array, sampler;
   };

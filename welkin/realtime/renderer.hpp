@@ -136,7 +136,7 @@ struct Outputs {
 
 // Where bindHost puts what the include reads; the numbers are the host's to choose.
 struct HostBindings {
-  unsigned firstUnit = 0;     // of texture units, up to 8 of them
+  unsigned firstUnit = 0;     // of texture units, up to 9 of them
   unsigned uniformBlock = 0;  // binding of the uniform block
 };
 
