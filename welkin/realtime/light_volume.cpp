@@ -36,7 +36,8 @@ gl::Program pass(const gl::Api& gl, const std::string& name) {
 
 LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     : gl_(gl), preset_(preset), sunPass_(pass(gl, "light_sun")), startPass_(pass(gl, "light_start")),
-      diffusionPass_(pass(gl, "light_diffusion")), columnPass_(pass(gl, "light_column")), block_(gl) {
+      diffusionPass_(pass(gl, "light_diffusion")), columnPass_(pass(gl, "light_column")),
+      belowPass_(pass(gl, "light_below")), block_(gl) {
   const bool small = preset == QualityPreset::low || preset == QualityPreset::medium;
   extent_ = {small ? 64 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
   slices_ = small ? 19 : 30;
@@ -364,7 +365,23 @@ void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count) {
   }
 }
 
+// The coarsest level alone is asked for it.
+void LightVolume::carryDown(gl::Framebuffer& framebuffer) {
+  use(belowPass_);
+  bind(belowPass_, "uDiffuse", light_, kUnits + 1);
+  for (int s = slices_ - 1; s >= 0; --s) {
+    const auto turn = static_cast<std::size_t>(s & 1);
+    slice(belowPass_, s);
+    bind(belowPass_, "uAbove", lightSlice_[1 - turn], kUnits + 3);
+    const gl::Texture* const targets[] = {&lightSlice_[turn]};
+    framebuffer.target(targets);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+    copy(0, light_, s);
+  }
+}
+
 void LightVolume::publish(gl::Framebuffer& framebuffer) {
+  if (job_->level == extent_.levels - 1) carryDown(framebuffer);
   const gl::Texture* const from[] = {&steps_, &light_};
   const gl::Texture* const to[] = {&sun_, &diffuse_};
   for (std::size_t i = 0; i < 2; ++i)

@@ -86,6 +86,7 @@ class LightVolume {
   void start(gl::Framebuffer& framebuffer, int count);
   void diffuseDown(gl::Framebuffer& framebuffer, int count);
   void diffuseUp(gl::Framebuffer& framebuffer, int count);
+  void carryDown(gl::Framebuffer& framebuffer);
   void publish(gl::Framebuffer& framebuffer);
   void use(const gl::Program& program);
   void sunUniform(const gl::Program& program) const;
@@ -103,7 +104,7 @@ class LightVolume {
   // light_diffusion.
   gl::Texture density_, sheets_, steps_, share_, light_;
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
-  gl::Program sunPass_, startPass_, diffusionPass_, columnPass_;
+  gl::Program sunPass_, startPass_, diffusionPass_, columnPass_, belowPass_;
   gl::UniformBuffer block_;
   std::vector<Level> levels_;
   std::optional<Job> job_;
