@@ -12,28 +12,33 @@ namespace {
 
 constexpr double kThickness = 1200.0, kWidth = 40000.0;
 
-// A slab of droplets in a vacuum over black ground, seen from below; the sun at 60 degrees.
-double radianceBelow(double opticalDepth) {
+// A slab of droplets in a vacuum over ground of that albedo, the sun at 60 degrees; what a camera below it sees that
+// looks up or, with `low` a speck of cloud far below and aside, so that most of the volume's height is clear, down.
+double radianceBelow(double opticalDepth, double albedo, double pitch, bool low) {
   Scene scene = plainScene(LayerShape::profile);
   scene.layers.clear();
   scene.quality.earlyExit = false;
   scene.atmosphere.rayleigh = scene.atmosphere.mie = scene.atmosphere.ozone = scene.atmosphere.haze = 0.0f;
-  scene.ground.albedo = glm::vec3(0.0f);
+  scene.ground.albedo = glm::vec3(static_cast<float>(albedo));
   scene.sun.elevation = 1.0471976f;
-  scene.camera.pitch = 1.5f;
+  scene.camera.pitch = static_cast<float>(pitch);
   scene.camera.heading = 2.5f;
-  scene.grids.resize(1);
-  scene.grids[0].file = "slab.vdb";  // its voxels are handed over
-  VoxelGrid voxels({64, 64, 24}, {-0.5 * kWidth, -0.5 * kWidth, 1000.0}, {kWidth / 64, kWidth / 64, kThickness / 24});
-  for (int z = 0; z < 24; ++z)
-    for (int y = 0; y < 64; ++y)
-      for (int x = 0; x < 64; ++x) voxels.set({x, y, z}, static_cast<float>(opticalDepth / kThickness));
   CustomTextures textures;
-  textures.grids = {placed({.values = GridValues::extinction}, std::make_shared<const VoxelGrid>(std::move(voxels)))};
+  const auto add = [&](VoxelGrid voxels, float sigma) {
+    scene.grids.emplace_back().file = "slab.vdb";  // its voxels are handed over
+    for (int z = 0; z < voxels.dims().z; ++z)
+      for (int y = 0; y < voxels.dims().y; ++y)
+        for (int x = 0; x < voxels.dims().x; ++x) voxels.set({x, y, z}, sigma);
+    textures.grids.push_back(
+        placed({.values = GridValues::extinction}, std::make_shared<const VoxelGrid>(std::move(voxels))));
+  };
+  add({{64, 64, 24}, {-0.5 * kWidth, -0.5 * kWidth, 1000.0}, {kWidth / 64, kWidth / 64, kThickness / 24}},
+      static_cast<float>(opticalDepth / kThickness));
+  if (low) add({{4, 4, 4}, {0.4 * kWidth, 0.4 * kWidth, 200.0}, {10.0, 10.0, 10.0}}, 1e-3f);
   Stage stage(16, 16);
   stage.sky->setScene(scene, textures);
   Frame frame = stage.frame(scene);
-  frame.background = Background::host;
+  frame.background = pitch > 0.0 ? Background::host : Background::skyAndGround;
   return statistics(stage.draw(stage.view, frame)).mean;
 }
 
@@ -46,18 +51,30 @@ double transmittance(double opticalDepth, double cosine) {
 
 // Light from below a thick slab: in the P1 approximation the radiance at the nadir is that of the fluence a transport
 // mean free path inside, 0.5 + 0.75 g of the flux over pi there; march_params.cpp looks 4/3 as deep, since clouds are
-// thinner than their greatest extinction. Cells and the share of the beam that was fitted to cumulus bring 1.2 times
-// that at an optical depth of 30 and 1.4 times at 90; light that fell off exponentially would be 1e-3 of it.
+// thinner than their greatest extinction. Cells bring .95 times that at an optical depth
+// of 30 and 1.4 times at 90; light that fell off exponentially would be 1e-3 of it.
 TEST(LightVolume, ASlabLetsThroughWhatTwoStreamTheorySays) {
   const double cosine = std::sin(1.0471976);
   for (const double opticalDepth : {30.0, 90.0}) {
     const double flux = 128.0 * cosine * transmittance(opticalDepth, cosine);
     const double expected = flux / 3.14159265 * (0.5 + 0.75 * 0.86 * 4.0 / 3.0);
-    const double found = radianceBelow(opticalDepth);
+    const double found = radianceBelow(opticalDepth, 0.0, 1.5, false);
     std::printf("tau %g: %.3f kcd/m^2, theory %.3f\n", opticalDepth, found, expected);
     EXPECT_GT(found, 0.9 * expected);
     EXPECT_LT(found, 1.45 * expected);
   }
+}
+
+// The ground sends on its share of what the slab lets through, with what goes to and fro between both; clear cells of
+// the volume between slab and ground once gave it no sunlight at all.
+TEST(LightVolume, GroundUnderASlabIsLitByWhatItLetsThrough) {
+  constexpr double kDepth = 30.0, kAlbedo = 0.3;
+  const double cosine = std::sin(1.0471976), reflected = 1.0 - 1.0 / (1.0 + 0.75 * 0.14 * kDepth);
+  const double flux = 128.0 * cosine * transmittance(kDepth, cosine) / (1.0 - kAlbedo * reflected);
+  const double expected = kAlbedo * flux / 3.14159265;
+  const double found = radianceBelow(kDepth, kAlbedo, -1.0, true);
+  std::printf("ground %.3f kcd/m^2, theory %.3f\n", found, expected);
+  EXPECT_NEAR(found, expected, 0.25 * expected);  // cells; one order of what goes to and fro
 }
 
 // A small sky of cumulus whose picture needs no history.
