@@ -100,7 +100,7 @@ SkyLight belowSheets(const Scene& scene, SkyLight light, float sunHeight) {
 // Sunlight on its way through a cloud that has been turned aside but once or twice counts as light without direction,
 // by this share of an irradiance of 1 (isotropic: 1/4), since what the light volume's cells know of it is blurred:
 // fitted to the path tracer on bench/error.cpp's cumulus and stratocumulus and on altocumulus.
-constexpr float kBeam = 0.18f;
+constexpr float kBeam = 0.14f;
 
 // Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
 // top: by eye, until it is fitted to a reference.

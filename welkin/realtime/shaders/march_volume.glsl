@@ -11,6 +11,9 @@ const int kFineSteps = 4;            // after the first hit
 const float kFineStep = 0.5;         // share of the usual step
 const float kEyeStep = 2.0, kEyeGrowth = 0.12;  // m and share of the distance: most of a step near an eye in fog
 const float kShortPath = 100.0, kLongPath = 300.0;  // m; a cell of the light volume, and the longest
+// Lumps of cloud smaller than a cell of the volume: how wide they are (m, and share of the height of all clouds at most),
+// and how much light without direction there is at the sunlit face of one that is thick.
+const float kLump = 250.0, kLumpHeight = 0.15, kLumpLight = 0.33;
 const float kOutside = 0.5;          // share of the depth outside the outlines that is taken for clear, within 4 steps
 
 float spacingAt(float t, MarchParams m) {
@@ -107,6 +110,10 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
     float powder = mix(1.0, 1.0 - exp(-2.0 * tau), m.sun.w);
     // What has been scattered forward goes on in nearly the same direction, the rest spreads.
     float straight = exp(-thick), forward = exp(-kReduced * thick);
+    // A lump of cloud smaller than the cells keeps more light than they know of.
+    float lump = 1.0 - exp(-kReduced * min(kLump, kLumpHeight / inverseShell) * found.x);
+    float within = min(0.5 * (lightVolumeCoarseness(level, uVolume) - 1.0), 1.0);
+    spread.x = max(spread.x, kLumpLight * within * lump * forward);
     float turned = (spread.x + m.beam * forward) * 0.318309886;
     vec3 source = sunlight * ((first * straight + broad * (forward - straight)) * powder + turned);
     source += m.ambientSky.xyz * (m.ambientSky.w * spread.y);
