@@ -78,6 +78,12 @@ FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) diffuse) {
   return 2.0f * xy(sample3(diffuse, placeBelow(p, v)));
 }
 
+// Radiance of ground on which so much light falls from above, klx, when the share `open` of the light that it sends up does
+// not come back from the clouds: the same share that these let through of the sky's.
+FN Vec3 groundRadiance(IN(Vec3) falling, IN(Vec3) albedo, IN(Real) open) {
+  return albedo * falling / (Vec3(1.0f) - albedo * (1.0f - open)) * 0.318309886f;
+}
+
 // How freely light passes from a cell of extinction `own` (1/m) to its neighbour of `other`, `h` m away (x), and through
 // what is clear of the neighbour to the surroundings (y); per m. Light that leaves a dense cell has not come from its
 // middle, but from within a transport path of its surface.

@@ -217,11 +217,13 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Vec3 lit = irradiance * lookupTransmittanceToSun(transmittance, air, Real(0.0f), dot(sun, normal));
   Vec3 diffuse = xyz(m.skyIrradiance);
   if (kLightVolume == 0) lit = lit * sheetsThrough(Vec3(dir.x * tGround, dir.y * tGround, 0.0f), dot(sun, normal), m, sky);
+  Real open = 1.0f;
   if (kLightVolume != 0) {
     Vec2 below = skyBelow(Vec2(dir.x * tGround, dir.y * tGround), sky);
     diffuse = sunLow * below.x + xyz(m.ambientSky) * (3.14159265f * below.y);
+    open = below.y;
   }
-  Vec3 surface = xyz(m.groundAlbedo) * (lit * (cosSun * max(r.ground, 0.0f)) + diffuse) * 0.318309886f;
+  Vec3 surface = groundRadiance(lit * (cosSun * max(r.ground, 0.0f)) + diffuse, xyz(m.groundAlbedo), open);
   airBefore(dir, tGround, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
   radiance = select(ground, radiance + (surface * through + inscatter) * kept, radiance);
   depth = select(both(ground, depth >= m.maxDistance), tGround, depth);

@@ -1,5 +1,6 @@
-// Light volume, at the end: clear cells hold the light that comes down from the cloud above them, so that the lowest slice
-// tells what lies below the clouds how much that is.
+// Light volume, at the end: clear cells hold half the flux that comes down from the cloud above them, so that the lowest
+// slice tells what lies below the clouds how much that is. Out of a cell's middle the light passes half of its depth and
+// the cloud's surface (exchange() in light_volume.glsl).
 #include "welkin/realtime/shaders/light_level.glsl"
 
 uniform sampler3D uDiffuse;
@@ -7,10 +8,17 @@ uniform sampler2D uAbove;  // the slice above
 
 layout(location = 0) out vec4 oLight;
 
+float densityAt(ivec3 cell) { return texelFetch(uDensity, cell, 0).x; }
+vec2 leaving(vec2 light, float density) { return light / (1.0 + 0.75 * kReduced * uSlice.y * density); }
+
 void main() {
   ivec3 cell = ivec3(ivec2(gl_FragCoord.xy), int(uSlice.z));
   vec2 light = texelFetch(uDiffuse, cell, 0).xy;
-  float clear = exp(-kClearing * texelFetch(uDensity, cell, 0).x);
-  if (cell.z + 1 < int(uVolume.slices)) light = mix(light, texelFetch(uAbove, cell.xy, 0).xy, clear);
+  float own = densityAt(cell);
+  if (cell.z + 1 < int(uVolume.slices)) {
+    vec2 above = leaving(texelFetch(uAbove, cell.xy, 0).xy, densityAt(cell + ivec3(0, 0, 1)));
+    light = mix(light, above, exp(-kClearing * own));
+  }
+  if (cell.z == 0) light = leaving(light, own);
   oLight = vec4(light, 0.0, 1.0);
 }

@@ -24,7 +24,8 @@ float spacingAt(float t, MarchParams m) {
 vec3 groundUnder(vec2 p, vec3 sunLow, MarchParams m, Sky sky) {
   float direct = max(m.sun.z, 0.0) * exp(-kReduced * textureLod(uSun, placeBelow(p, uVolume), 0.0).x);
   vec2 below = skyBelow(p, sky);
-  return m.groundAlbedo.xyz * (sunLow * ((direct + below.x) / 3.14159265) + m.ambientSky.xyz * below.y);
+  vec3 falling = sunLow * (direct + below.x) + m.ambientSky.xyz * (3.14159265 * below.y);
+  return groundRadiance(falling, m.groundAlbedo.xyz, below.y);
 }
 
 MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter, MarchParams m, Sky sky) {
