@@ -60,18 +60,27 @@ std::vector<glm::vec4> dropCells(const DropLevels& levels, const FrameParams& vi
     const int n = static_cast<int>(std::ceil(far / edge)) + 1;
     const std::size_t first = cells.size();
     for (int z = -n; z <= n; ++z)
-      for (int y = -n; y <= n; ++y)
-        for (int x = -n; x <= n; ++x) {
-          // The cell's corner lies up to an edge before this point, and its particles within an edge of that.
+      for (int y = -n; y <= n; ++y) {
+        // Of a row, what the sides of the picture leave; particles stand within an edge of the cell's corner, and that
+        // up to an edge before this point.
+        float low = static_cast<float>(-n), high = static_cast<float>(n);
+        for (int side = 0; side < pyramid.sides; ++side) {
+          const glm::vec3& normal = pyramid.inward[static_cast<std::size_t>(side)];
+          const float rest = normal.y * static_cast<float>(y) + normal.z * static_cast<float>(z) + std::abs(normal.x) +
+                             std::abs(normal.y) + std::abs(normal.z);
+          if (normal.x > 0.0f)
+            low = std::max(low, -rest / normal.x);
+          else if (normal.x < 0.0f)
+            high = std::min(high, -rest / normal.x);
+          else if (rest < 0.0f)
+            high = low - 1.0f;
+        }
+        for (int x = static_cast<int>(std::ceil(low)); static_cast<float>(x) <= high; ++x) {
           const glm::vec3 middle = edge * glm::vec3(x, y, z), away = glm::abs(middle);
           if (glm::length(glm::max(away - edge, 0.0f)) > far || glm::length(away + edge) < near) continue;
-          const auto beyond = [&](const glm::vec3& normal) {
-            return glm::dot(normal, middle) + edge * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z)) < 0;
-          };
-          bool seen = altitude + glm::dot(up, middle) + 1.8f * edge > 0.0f;
-          for (int side = 0; seen && side < pyramid.sides; ++side) seen = !beyond(pyramid.inward[side]);
-          if (seen) cells.emplace_back(x, y, z, k);
+          if (altitude + glm::dot(up, middle) + 1.8f * edge > 0.0f) cells.emplace_back(x, y, z, k);
         }
+      }
     std::sort(cells.begin() + static_cast<std::ptrdiff_t>(first), cells.end(), [](const auto& a, const auto& b) {
       const glm::vec3 p(a), q(b);
       return glm::dot(p, p) != glm::dot(q, q) ? glm::dot(p, p) < glm::dot(q, q)

@@ -1,4 +1,4 @@
-// What the shader of drops and flakes knows (shaders/drops.vert.glsl); positions are relative to the eye,
+// What the shader of drops and flakes knows (shaders/drop_places.frag.glsl); positions are relative to the eye,
 // east-north-up.
 
 const float kRainFade = 0.7f;  // share of a level's reach, where its particles begin to give way to what is beyond

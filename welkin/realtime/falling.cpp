@@ -11,7 +11,7 @@ namespace welkin::realtime {
 
 namespace {
 
-constexpr int kMapSize = 128, kCellsAcross = 256;
+constexpr int kMapSize = 128, kCellsAcross = 16;
 constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kDropsBlock = 3;
 constexpr double kFlutterPeriod = 16.0;  // s, after which all flutter repeats
 
@@ -26,6 +26,11 @@ std::string fileText(const char* path) { return std::string(shaderSource(path));
 }  // namespace
 
 FallingPass::FallingPass(const gl::Api& gl) : gl_(gl), buffer_(gl) {}
+
+std::vector<std::pair<const char*, const gl::Texture*>> FallingPass::textures() const {
+  return {{"rain map", &map_},         {"rain light", &light_},     {"drops: cells", &cells_},
+          {"drops: places", &places_}, {"drops: lights", &lights_}, {"drops: sizes", &sizes_}};
+}
 
 void FallingPass::compile(const std::string& clouds, bool lit) {
   const std::string text = clouds + (lit ? "#define LIGHT_VOLUME\n" : "");
@@ -75,37 +80,37 @@ void FallingPass::drawMap(const FallingInputs& inputs, gl::Framebuffer& framebuf
   draw(lightProgram_, light_);
 }
 
+// Cells, and room for what stands in them.
 void FallingPass::keepCells(const std::vector<glm::vec4>& cells) {
   const int rows = (static_cast<int>(cells.size()) + kCellsAcross - 1) / kCellsAcross;
   std::vector<glm::vec4> texels(cells);
   texels.resize(static_cast<std::size_t>(rows) * kCellsAcross);
-  if (!cells_ || cells_.height() < rows)
-    cells_ = gl::Texture(gl_, gl::Texture::Kind::plane, gl::kRgba32F, kCellsAcross, rows, 0, gl::Filter::nearest,
+  if (!cells_ || cells_.height() < rows) {
+    const auto target = [&](const gl::Format& format, int width) {
+      return gl::Texture(gl_, gl::Texture::Kind::plane, format, width, rows, 0, gl::Filter::nearest,
                          gl::Addressing::clamp, nullptr);
+    };
+    cells_ = target(gl::kRgba32F, kCellsAcross);
+    places_ = target(gl::kRgba32F, kCellsAcross * kDropsPerCell);
+    lights_ = target(gl::kRgba32F, kCellsAcross * kDropsPerCell);
+    sizes_ = target(gl::kRg16F, kCellsAcross * kDropsPerCell);
+  }
   gl_.BindTexture(GL_TEXTURE_2D, cells_.id());
   gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kCellsAcross, rows, GL_RGBA, GL_FLOAT, texels.data());
+}
+
+const gl::Program& FallingPass::program(std::map<std::string, gl::Program>& variants, const std::string& defines,
+                                        const char* fragment, const char* vertex) const {
+  gl::Program& found = variants[defines];
+  if (!found.id())
+    found = gl::Program(gl_, "drops", defines, fileText(fragment), shaderSource, vertex ? fileText(vertex) : "");
+  return found;
 }
 
 int FallingPass::drawDrops(const Drops& drops) {
   const auto most = static_cast<std::size_t>(std::max(drops.most, 0)) / kDropsPerCell;
   const std::vector<glm::vec4> cells = dropCells(drops.levels, drops.view, glm::vec3(drops.up), drops.altitude, most);
   if (cells.empty()) return 0;
-  if (!dropsProgram_.id())
-    dropsProgram_ =
-        gl::Program(gl_, "drops",
-                    fmt::format("#define DROP_LEVELS {}\n#define DROP_CLASSES {}\n#define DROPS_PER_CELL {}\n",
-                                kDropLevels, kFallClasses, kDropsPerCell),
-                    fileText("welkin/realtime/shaders/drops.frag.glsl"), shaderSource,
-                    fileText("welkin/realtime/shaders/drops.vert.glsl"));
-  gl_.UseProgram(dropsProgram_.id());
-  gl_.ActiveTexture(GL_TEXTURE0);
-  keepCells(cells);
-  bind(dropsProgram_, "uCells", cells_, 0);
-  bind(dropsProgram_, "uRainMap", map_, 1);
-  bind(dropsProgram_, "uRainLight", light_, 2);
-  gl_.ActiveTexture(GL_TEXTURE3);
-  gl_.BindTexture(GL_TEXTURE_2D, drops.hostDepth);
-  gl_.Uniform1i(dropsProgram_.uniform("uHostDepth"), 3);
   DropsBlock block{};
   law::DropParams& p = block.params;
   const glm::mat4 rows = glm::transpose(drops.view.clipFromWorld);
@@ -124,16 +129,56 @@ int FallingPass::drawDrops(const Drops& drops) {
   p.shutter = drops.shutter;
   block.classes = dropClasses(drops.levels, drops.eye, drops.up, drops.wind, drops.velocity, drops.frame.time);
   buffer_.upload(&block, sizeof block);
-  dropsProgram_.bindBlock("Frame", kFrameBlock);
-  dropsProgram_.bindBlock("Drops", kDropsBlock);
-  drops.frameBlock.bind(kFrameBlock);
-  buffer_.bind(kDropsBlock);
+  const auto& classes = drops.levels.falling.classes;
+  const bool flakes = std::any_of(classes.begin(), classes.end(), [](const FallClass& c) { return c.snow > 0.5f; });
+  const bool panorama = drops.frame.mapping == Projection::equirectangular;
+  place(cells,
+        program(placePrograms_,
+                fmt::format("#define DROP_LEVELS {}\n#define DROP_CLASSES {}\n#define DROPS_PER_CELL {}\n{}{}",
+                            kDropLevels, kFallClasses, kDropsPerCell, flakes ? "#define FLAKES\n" : "",
+                            panorama ? "#define PANORAMA\n" : ""),
+                "welkin/realtime/shaders/drop_places.frag.glsl", nullptr),
+        drops);
+
+  const gl::Program& show =
+      program(dropsPrograms_, drops.frame.depthTexture ? "#define HOST_DEPTH\n" : "",
+              "welkin/realtime/shaders/drops.frag.glsl", "welkin/realtime/shaders/drops.vert.glsl");
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, drops.frame.framebuffer);
+  gl_.Viewport(0, 0, drops.frame.width, drops.frame.height);
+  gl_.UseProgram(show.id());
+  show.bindBlock("Frame", kFrameBlock);
+  bind(show, "uPlaces", places_, 0);
+  bind(show, "uLights", lights_, 1);
+  bind(show, "uSizes", sizes_, 2);
+  gl_.ActiveTexture(GL_TEXTURE3);
+  gl_.BindTexture(GL_TEXTURE_2D, drops.frame.depthTexture);
+  gl_.Uniform1i(show.uniform("uHostDepth"), 3);
   gl_.Enable(GL_BLEND);
   gl_.BlendEquationSeparate(GL_FUNC_ADD, GL_FUNC_ADD);
   gl_.BlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
   const int count = static_cast<int>(cells.size()) * kDropsPerCell;
   gl_.DrawArrays(GL_TRIANGLES, 0, 3 * count);
   return count;
+}
+
+// Works out all drops of these cells.
+void FallingPass::place(const std::vector<glm::vec4>& cells, const gl::Program& program, const Drops& drops) {
+  gl_.ActiveTexture(GL_TEXTURE0);
+  keepCells(cells);
+  const gl::Texture* const targets[] = {&places_, &lights_, &sizes_};
+  drops.framebuffer.target(targets);
+  const int rows = (static_cast<int>(cells.size()) + kCellsAcross - 1) / kCellsAcross;
+  gl_.Viewport(0, 0, places_.width(), rows);
+  gl_.Disable(GL_BLEND);
+  gl_.UseProgram(program.id());
+  program.bindBlock("Frame", kFrameBlock);
+  program.bindBlock("Drops", kDropsBlock);
+  drops.frameBlock.bind(kFrameBlock);
+  buffer_.bind(kDropsBlock);
+  bind(program, "uCells", cells_, 0);
+  bind(program, "uRainMap", map_, 1);
+  bind(program, "uRainLight", light_, 2);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace welkin::realtime

@@ -2,7 +2,10 @@
 // The passes of rain and snow near the eye: a map of what falls at the ground, the light there, and the drops and
 // flakes themselves (drops.hpp). Like gl/objects.hpp, for .cpp files only.
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "welkin/gl/objects.hpp"
 #include "welkin/realtime/drops.hpp"
@@ -47,20 +50,26 @@ class FallingPass {
     float rate;           // mm/h for which there are all drops
     float shutter;        // s
     int most;
-    GLuint hostDepth;
+    gl::Framebuffer& framebuffer;  // for what is drawn in between
   };
-  // Over the target that is bound. Returns how many drops were drawn.
+  // Over the frame's target, which is left bound. Returns how many drops were drawn.
   int drawDrops(const Drops& drops);
 
   const gl::Texture& map() const { return map_; }
+  // All of it, with their names for a table of memory.
+  std::vector<std::pair<const char*, const gl::Texture*>> textures() const;
 
  private:
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const;
   void keepCells(const std::vector<glm::vec4>& cells);
+  void place(const std::vector<glm::vec4>& cells, const gl::Program& program, const Drops& drops);
+  const gl::Program& program(std::map<std::string, gl::Program>& variants, const std::string& defines,
+                             const char* fragment, const char* vertex) const;
 
   const gl::Api& gl_;
-  gl::Texture map_, light_, cells_;
-  gl::Program mapProgram_, lightProgram_, dropsProgram_;
+  gl::Texture map_, light_, cells_, places_, lights_, sizes_;
+  gl::Program mapProgram_, lightProgram_;
+  std::map<std::string, gl::Program> placePrograms_, dropsPrograms_;  // by the defines of the variant
   gl::UniformBuffer buffer_;
   std::string text_;
 };

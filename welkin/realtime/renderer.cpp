@@ -740,7 +740,7 @@ void Renderer::State::dropsPass(const Frame& frame, const FrameParams& view, con
                                  .rate = scene.precipitation.rate,
                                  .shutter = scene.precipitation.shutter,
                                  .most = scene.precipitation.particles,
-                                 .hostDepth = frame.depthTexture ? frame.depthTexture : white.id()});
+                                 .framebuffer = framebuffer});
 }
 
 // By night the history holds light times this: half floats lose digits below 6e-5, which is a moonlit cloud.
@@ -982,7 +982,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   for (std::size_t i = 0; i < s.maps.size(); ++i) add(fmt::format("weather map {}", i), s.maps[i]);
   if (around && around->light)
     for (const auto& [name, texture] : around->light->textures()) add(name, *texture);
-  add("rain map", s.falling.map());
+  for (const auto& [name, texture] : s.falling.textures()) add(name, *texture);
   add("grid index", s.grids.index());
   add("grid bricks", s.grids.bricks());
   add("no map", s.white);

@@ -1,21 +1,19 @@
-// Drops and flakes, over the target by blending (one, one minus source alpha).
+// Drops and flakes, over the target by blending (one, one minus source alpha). Variant HOST_DEPTH: behind what the host
+// has drawn.
 #include "welkin/base/law.glsl"
 #include "welkin/realtime/shaders/frame.glsl"
 
 uniform sampler2D uHostDepth;
 
 in vec2 vShape;
-in vec4 vLight;
-in float vDistance;
+flat in vec4 vLight;
+flat in float vDistance;
 layout(location = 0) out vec4 oColour;
 
 void main() {
-  float r2 = dot(vShape, vShape);
-  if (r2 >= 1.0) discard;
-  if (uDepthInfo.x > 0.5) {
-    vec2 uv = gl_FragCoord.xy * uTarget.zw;
-    if (hostDistance(uHostDepth, uv, rayAt((uv - uLock.xy) * 2.0 - 1.0)) < vDistance) discard;
-  }
-  float opacity = vLight.w * (1.0 - r2);
+  float opacity = vLight.w * max(1.0 - dot(vShape, vShape), 0.0);
+#ifdef HOST_DEPTH
+  if (hostAlongView(uHostDepth, gl_FragCoord.xy * uTarget.zw) < vDistance) opacity = 0.0;
+#endif
   oColour = vec4(vLight.rgb * opacity, opacity);
 }

@@ -1,88 +1,22 @@
-// Drops and flakes near the eye: a triangle round the ellipse that each draws while the shutter is open.
+// Drops and flakes near the eye: a triangle round the ellipse that each draws (drop_places.frag.glsl).
 #include "welkin/base/law.glsl"
-#include "welkin/noise/hash.glsl"
-#include "welkin/precipitation/precipitation.glsl"
-#include "welkin/realtime/drops.glsl"
 #include "welkin/realtime/shaders/frame.glsl"
 
-layout(std140) uniform Drops {
-  DropParams uDrops;
-  DropClass uClass[DROP_LEVELS * DROP_CLASSES];
-};
-uniform highp sampler2D uCells;     // xyz: number of the cell from the eye's, w: level
-uniform highp sampler2D uRainMap;   // x: mm/h
-uniform highp sampler2D uRainLight; // sunlight at the eye in klx, light from all sides in kcd/m^2
+uniform highp sampler2D uPlaces, uLights, uSizes;
 
-out vec2 vShape;      // 1 at the ellipse's rim
-out vec4 vLight;      // light in the target's units, w: opacity in the middle
-out float vDistance;  // m
-
-const float kThinnest = 0.75;  // px, half of what is drawn at the least
-
-// Pixels of the target, and whether they are before the eye.
-vec3 shownAt(vec3 p) {
-  vec4 q = vec4(p, 1.0);
-  vec3 clip = vec3(dot(uDrops.clip0, q), dot(uDrops.clip1, q), dot(uDrops.clip3, q));
-  vec2 uv;
-  if (uCamera.forward.w > 0.5) {
-    float turn = atan(clip.x, clip.z) - uCamera.angles.x;
-    turn -= 6.28318531 * floor(turn / 6.28318531 + 0.5);
-    uv = vec2(turn, atan(clip.y, length(clip.xz)) - uCamera.angles.y) / uCamera.angles.zw * 0.5 + 0.5;
-    clip.z = 1.0;
-  } else {
-    uv = clip.xy / max(clip.z, 1e-4) * 0.5 + 0.5;
-  }
-  return vec3(uv * uTarget.xy, clip.z);
-}
+out vec2 vShape;           // 1 at the ellipse's rim
+flat out vec4 vLight;      // light in the target's units, w: opacity in the middle
+flat out float vDistance;  // along the view, m
 
 void main() {
-  gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // of those that are not drawn
-  vShape = vec2(2.0);
-  vLight = vec4(0.0);
-  vDistance = 0.0;
-  int drop = gl_VertexID / 3, corner = gl_VertexID % 3;
-  int slot = drop / DROPS_PER_CELL, number = drop % DROPS_PER_CELL, across = textureSize(uCells, 0).x;
-  vec4 cell = texelFetch(uCells, ivec2(slot % across, slot / across), 0);
-  int level = int(cell.w + 0.5);
-  DropClass kind = uClass[level * DROP_CLASSES + number % DROP_CLASSES];
-  uint h0 = hashCell3(int(cell.x) + kind.cellX, int(cell.y) + kind.cellY, int(cell.z) + kind.cellZ,
-                      uint(number + DROPS_PER_CELL * level));
-  uint h1 = nextHash(h0), h2 = nextHash(h1), h3 = nextHash(h2), h4 = nextHash(h3);
-  vec3 p = particlePlace(cell.xyz, kind.start.xyz, vec3(unitFromHash(h0), unitFromHash(h1), unitFromHash(h2)),
-                         uDrops.edges[level]);
-  float chance = unitFromHash(h3), phase = unitFromHash(h4), diameter = kind.start.w;
-  float shownArea = 0.785398163 * diameter * diameter * exp2(3.0 * float(level));
-  float lit = 1.0;  // flakes turn sides of their own to the light
-  if (kind.flake == 1) {
-    float turn = fract(uDrops.turns * floor(8.0 + 24.0 * chance));
-    p += flutter(turn, phase, 6.0 * diameter);
-    shownArea *= tumbled(turn, phase);
-    lit = 0.5 + unitFromHash(nextHash(h4));
-  }
-  float distance_ = length(p), far = uDrops.reaches[level];
-  float share = 1.0 - smoothstep(kRainFade * far, far, distance_);
-  if (level > 0) share *= smoothstep(0.5 * kRainFade * far, 0.5 * far, distance_);
-  // As many as the rate of this place asks for.
-  float rate = textureLod(uRainMap, p.xy * uDrops.mapScale + 0.5, 0.0).x;
-  float there = rate > 1e-3 ? pow(rate / uDrops.rate, 0.6) : 0.0;
-  if (share <= 0.0 || chance >= there || distance_ < 0.05 || uDrops.up.w + dot(uDrops.up.xyz, p) < 0.0) return;
-
-  vec3 half_ = kind.velocity.xyz * (0.5 * uDrops.shutter);
-  vec3 a = shownAt(p - half_), b = shownAt(p + half_);
-  if (min(a.z, b.z) < 0.05) return;
-  float pixels = 1.0 / (distance_ * uOptions.w);  // of a metre there
-  float across_ = max(0.5 * diameter * pixels, kThinnest);
-  vec2 way = 0.5 * (b.xy - a.xy);
-  float moved = length(way), along = moved + across_;
-  if (along > 0.5 * uTarget.x) return;
-  vec2 unit = moved > 1e-3 ? way / moved : vec2(0.0, 1.0);
+  int drop = gl_VertexID / 3, corner = gl_VertexID - 3 * drop, across = textureSize(uPlaces, 0).x;
+  ivec2 texel = ivec2(drop % across, drop / across);
+  vec4 place = texelFetch(uPlaces, texel, 0);
+  vec2 size = texelFetch(uSizes, texel, 0).xy;
+  vLight = texelFetch(uLights, texel, 0);
+  vDistance = size.y;
   // An equilateral triangle round the unit circle.
   vShape = corner == 0 ? vec2(0.0, 2.0) : vec2(corner == 1 ? -1.7320508 : 1.7320508, -1.0);
-  vec2 pixel = 0.5 * (a.xy + b.xy) + unit * (along * vShape.y) + vec2(unit.y, -unit.x) * (across_ * vShape.x);
+  vec2 pixel = place.xy + place.zw * vShape.y + vec2(place.w, -place.z) * (size.x * vShape.x);
   gl_Position = vec4(pixel * uTarget.zw * 2.0 - 1.0, 0.0, 1.0);
-  vec3 source = fallingSource(dot(p, uDrops.sun.xyz) / distance_, kind.flake == 1 ? kSnowAsymmetry : kRainAsymmetry,
-                              texelFetch(uRainLight, ivec2(0), 0).rgb, texelFetch(uRainLight, ivec2(1, 0), 0).rgb);
-  float opacity = share * streakOpacity(shownArea * pixels * pixels, along, across_);
-  vLight = vec4(uOptions.z > 2.5 ? vec3(0.0) : source * (lit * uDrops.sun.w), opacity);
-  vDistance = distance_;
 }

@@ -21,13 +21,16 @@ layout(std140) uniform Frame {
 
 vec3 rayAt(vec2 ndc) { return cameraRay(ndc, uCamera); }
 
-// Distance along the ray of the host's depth at uv, or far away.
-float hostDistance(sampler2D depth, vec2 uv, vec3 ray) {
-  if (uDepthInfo.x < 0.5) return 1e8;
+// Distance along the view of the host's depth at uv, m, or far away.
+float hostAlongView(sampler2D depth, vec2 uv) {
   float z = textureLod(depth, uv, 0.0).x;
-  float ndc = uDepthInfo.w > 0.5 ? z : z * 2.0 - 1.0;
-  float along = ndc + uDepthInfo.y;
-  if (abs(along) < 1e-9) return 1e8;
-  float view = uDepthInfo.z / along;
-  return view <= 0.0 || view > 1e7 ? 1e8 : view * length(ray);
+  float along = (uDepthInfo.w > 0.5 ? z : z * 2.0 - 1.0) + uDepthInfo.y;
+  float view = uDepthInfo.z / (abs(along) < 1e-9 ? 1e-9 : along);
+  return view <= 0.0 || view > 1e7 ? 1e8 : view;
+}
+
+// The same along a ray.
+float hostDistance(sampler2D depth, vec2 uv, vec3 ray) {
+  float view = uDepthInfo.x < 0.5 ? 1e8 : hostAlongView(depth, uv);
+  return view < 1e8 ? view * length(ray) : 1e8;
 }
