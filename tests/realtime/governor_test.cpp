@@ -158,6 +158,24 @@ TEST(Governor, EndsAtTheWorstWhenNothingIsEnough) {
   EXPECT_EQ(machine.run(governor, 1000), 0);
 }
 
+TEST(Governor, GivesUpResolutionOnlyWhereItMay) {
+  GovernorSettings settings;
+  settings.target = kTarget;
+  settings.leastScale = 0.5f;
+  Governor governor(settings), whole = governorFor();
+  Machine machine{.high = 1.0}, other{.high = 1.0};
+  EXPECT_EQ(governor.scale(), 1.0f);
+  machine.run(governor, 200);
+  other.run(whole, 200);
+  EXPECT_LT(governor.scale(), 0.6f);
+  EXPECT_GE(governor.scale(), 0.495f);
+  EXPECT_EQ(whole.scale(), 1.0f);
+  EXPECT_EQ(governor.rungs().back(), whole.rungs().back());
+  machine.high = 0.001;
+  machine.run(governor, 1000);
+  EXPECT_EQ(governor.scale(), 1.0f) << "and takes it again when there is time";
+}
+
 TEST(Governor, PassesOverNumbersThatAreNoTimes) {
   Governor governor = governorFor();
   for (int i = 0; i < 100; ++i)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "welkin/base/error.hpp"
 
@@ -29,6 +30,7 @@ constexpr double kMostRest = 0.9;                // share of a frame that may be
 constexpr double kMostRestDown = 0.5;            // the same while time is short: too far down is put right soon
 constexpr int kSlowestLight = 240;               // frames for a level of the light volume
 constexpr double kStepRatio = 1.2;               // between rungs that differ in step scale
+constexpr float kScaleRatio = 0.84f;             // between those that differ in resolution: 0.7 of the pixels
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -36,12 +38,26 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+struct Ladder {
+  std::vector<Quality> rungs;
+  std::vector<float> scales;
+};
+
 // From best to worst one switch after the other, in the order of what each loses for the time that it saves.
-std::vector<Quality> ladder(const Quality& best, const Quality& worst) {
-  std::vector<Quality> rungs{best};
+Ladder ladder(const Quality& best, const Quality& worst, float leastScale) {
+  Ladder all{{best}, {1.0f}};
   Quality q = best;
+  float scale = 1.0f;
   const auto push = [&] {
-    if (relativeCost(q) < relativeCost(rungs.back())) rungs.push_back(q);
+    if (scale == all.scales.back() && relativeCost(q) >= relativeCost(all.rungs.back())) return;
+    all.rungs.push_back(q);
+    all.scales.push_back(scale);
+  };
+  const auto pictureTo = [&](float least) {
+    while (scale * kScaleRatio >= std::max(least, leastScale) * 0.99f) {
+      scale *= kScaleRatio;
+      push();
+    }
   };
   const auto interleaveTo = [&](int most) {
     while (q.interleave < std::min(most, worst.interleave)) {
@@ -75,11 +91,15 @@ std::vector<Quality> ladder(const Quality& best, const Quality& worst) {
     q.lightSteps = std::max(q.lightSteps - (q.lightVolume ? 4 : 1), worst.lightSteps);
     push();
   }
+  pictureTo(0.84f);
   scaleTo(3);
   stepsTo(1.5f);
+  pictureTo(0.7f);
   scaleTo(4);
+  pictureTo(0.59f);
   stepsTo(worst.stepScale);
-  return rungs;
+  pictureTo(leastScale);
+  return all;
 }
 
 double checkedTarget(double seconds) {
@@ -109,8 +129,11 @@ Quality GovernorSettings::coarsest() {
   return q;
 }
 
-Governor::Governor(const GovernorSettings& settings)
-    : rungs_(ladder(settings.best, settings.worst)), target_(checkedTarget(settings.target)), skip_(kCutFrames) {}
+Governor::Governor(const GovernorSettings& settings) : target_(checkedTarget(settings.target)), skip_(kCutFrames) {
+  Ladder all = ladder(settings.best, settings.worst, std::clamp(settings.leastScale, 0.25f, 1.0f));
+  rungs_ = std::move(all.rungs);
+  scales_ = std::move(all.scales);
+}
 
 void Governor::setTarget(double seconds) {
   target_ = checkedTarget(seconds);

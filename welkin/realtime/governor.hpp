@@ -17,13 +17,15 @@ struct GovernorSettings {
   double target = 1.0 / 60.0;  // s a frame, of what is measured
   Quality best = qualityPreset(QualityPreset::high);
   Quality worst = coarsest();
+  float leastScale = 1.0f;  // of the picture's width and height, for hosts that can draw at scale(); 0.25 to 1
 
   // Quality low with a history of a quarter of the picture's width.
   static Quality coarsest();
 };
 
 // Between `best` and `worst` lie rungs that differ in step scale, light steps, interleave and history scale: what can
-// be changed from one frame to the next with no shader or table made anew. All other switches stay as in `best`.
+// be changed from one frame to the next with no shader or table made anew, and in the picture's own resolution where
+// `leastScale` allows it. All other switches stay as in `best`.
 class Governor {
  public:
   // Throws Error (badInput) when the target is not a positive number of seconds.
@@ -40,18 +42,23 @@ class Governor {
   void setTarget(double seconds);
 
   const Quality& quality() const { return rungs_[rung_]; }
+  // Share of the picture's width and height at which it is to be drawn; 1 unless the settings allow less.
+  float scale() const { return scales_[rung_]; }
   double target() const { return target_; }
   const std::vector<Quality>& rungs() const { return rungs_; }  // from the best to the worst
   std::size_t rung() const { return rung_; }
 
  private:
-  double cost(std::size_t rung) const { return relativeCost(rungs_[rung]); }
+  double cost(std::size_t rung) const {
+    return relativeCost(rungs_[rung]) * static_cast<double>(scales_[rung] * scales_[rung]);
+  }
   double predicted(double now, std::size_t rung, double rest) const;
   double medianOfLast(std::size_t frames) const;
   void learn();
   void go(std::size_t rung);
 
   std::vector<Quality> rungs_;
+  std::vector<float> scales_;  // of each
   std::size_t rung_ = 0;
   double target_;
   std::deque<double> times_;  // of the last frames at this rung, without those that came too early to be its own
