@@ -101,7 +101,7 @@ void Viewer::takeScene() {
     picture_.setScene(scene, textures_);
     if (flight_) {
       flight_->setScene(scene, textures_.weatherMaps, textures_.grids);
-      scenery_->setWind(scene.wind);
+      scenery_->setScene(scene);
     }
     drawn_ = std::move(light);
   } catch (const Error& e) {

@@ -15,7 +15,7 @@ namespace welkin::gl {
   F(BINDSAMPLER, BindSampler) F(BINDTEXTURE, BindTexture) F(BINDVERTEXARRAY, BindVertexArray) \
   F(BLENDEQUATIONSEPARATE, BlendEquationSeparate) F(BLENDFUNCSEPARATE, BlendFuncSeparate) \
   F(BLITFRAMEBUFFER, BlitFramebuffer) F(BUFFERDATA, BufferData) F(BUFFERSUBDATA, BufferSubData) \
-  F(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) F(CLEAR, Clear) F(CLEARBUFFERFV, ClearBufferfv) \
+  F(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) F(CLEAR, Clear) F(CLEARBUFFERFI, ClearBufferfi) F(CLEARBUFFERFV, ClearBufferfv) \
   F(CLEARCOLOR, ClearColor) \
   F(COLORMASK, ColorMask) F(COMPILESHADER, CompileShader) F(COPYTEXSUBIMAGE3D, CopyTexSubImage3D) \
   F(CREATEPROGRAM, CreateProgram) \
@@ -37,6 +37,7 @@ namespace welkin::gl {
   F(GETUNIFORMINDICES, GetUniformIndices) F(GETUNIFORMLOCATION, GetUniformLocation) F(ISENABLED, IsEnabled) \
   F(LINKPROGRAM, LinkProgram) F(PIXELSTOREI, PixelStorei) F(READBUFFER, ReadBuffer) F(READPIXELS, ReadPixels) \
   F(SAMPLERPARAMETERI, SamplerParameteri) F(SCISSOR, Scissor) F(SHADERSOURCE, ShaderSource) \
+  F(STENCILFUNC, StencilFunc) F(STENCILOP, StencilOp) \
   F(TEXIMAGE2D, TexImage2D) F(TEXIMAGE3D, TexImage3D) F(TEXPARAMETERI, TexParameteri) \
   F(TEXSUBIMAGE2D, TexSubImage2D) F(TEXSUBIMAGE3D, TexSubImage3D) F(UNIFORM1F, Uniform1f) F(UNIFORM1I, Uniform1i) \
   F(UNIFORM1UI, Uniform1ui) F(UNIFORM2F, Uniform2f) F(UNIFORM2I, Uniform2i) F(UNIFORM3F, Uniform3f) \

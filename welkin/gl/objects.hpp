@@ -24,6 +24,8 @@ inline constexpr Format kRgba16F{GL_RGBA16F, GL_RGBA, GL_FLOAT, 4, 8, "RGBA16F"}
 inline constexpr Format kR32F{GL_R32F, GL_RED, GL_FLOAT, 1, 4, "R32F"};
 inline constexpr Format kRgba32F{GL_RGBA32F, GL_RGBA, GL_FLOAT, 4, 16, "RGBA32F"};
 inline constexpr Format kDepth32F{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4, "DEPTH32F"};
+inline constexpr Format kDepth32FStencil8{
+    GL_DEPTH32F_STENCIL8, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, 1, 8, "DEPTH32F_STENCIL8"};
 
 enum class Filter { nearest, linear };
 enum class Addressing { repeat, clamp, repeatX };  // repeatX: repeats in x, clamps in y

@@ -14,6 +14,11 @@ namespace welkin::viewer {
 namespace {
 
 constexpr double kEarth = 6360e3;  // m
+// From so many cells of a level up, over the ground, the next one begins to take its place, and has it.
+constexpr double kHigh = 60.0, kHighest = 80.0;
+constexpr double kShadeReach = 500.0;   // m from the aircraft to its shadow: land_shader.hpp
+constexpr double kRunwayReach = 260.0;  // m beyond the runway's edges that are evened: the same
+constexpr float kShore = 0.4f;          // m about the sea's level between which there is both: the same
 
 // Whether a box that is given by its corners may show.
 bool maySee(const glm::mat4& clip, const glm::vec3& low, const glm::vec3& high) {
@@ -31,22 +36,38 @@ bool maySee(const glm::mat4& clip, const glm::vec3& low, const glm::vec3& high) 
 
 }  // namespace
 
-LandMesh::LandMesh(const gl::Api& gl, const Terrain& terrain) : gl_(gl), terrain_(terrain) {
-  std::vector<std::uint32_t> indices;
-  indices.reserve(static_cast<std::size_t>(kCells) * kCells * 6);
-  for (int block = 0; block < kBlocks * kBlocks; ++block)
-    for (int y = 0; y < kBlockCells; ++y)
-      for (int x = 0; x < kBlockCells; ++x) {
-        const int i = block % kBlocks * kBlockCells + x, j = block / kBlocks * kBlockCells + y;
-        const auto at = static_cast<std::uint32_t>(j * (kCells + 1) + i), up = at + kCells + 1;
-        // The diagonal runs from lower right to upper left, as the vertex shader's morph has it.
-        for (const std::uint32_t index : {at, at + 1, up, at + 1, up + 1, up}) indices.push_back(index);
-      }
+LandMesh::LandMesh(const gl::Api& gl, const Terrain& terrain)
+    : gl_(gl), terrain_(terrain), texture_(gl, gl::Texture::Kind::array, gl::kRgba32F, kTexels, kTexels, kLevels,
+                                           gl::Filter::linear, gl::Addressing::clamp, nullptr) {
+  std::vector<std::uint16_t> indices;
+  // A hole leaves its outermost cells to both, against gaps.
+  const auto add = [&](Ring& ring, const glm::ivec2& low, const glm::ivec2& high) {
+    for (int block = 0; block < kBlocks * kBlocks; ++block) {
+      Block& b = ring.blocks[static_cast<std::size_t>(block)];
+      b.offset = indices.size() * sizeof(std::uint16_t);
+      for (int y = 0; y < kBlockCells; ++y)
+        for (int x = 0; x < kBlockCells; ++x) {
+          const int i = block % kBlocks * kBlockCells + x, j = block / kBlocks * kBlockCells + y;
+          if (i > low.x && j > low.y && i < high.x - 1 && j < high.y - 1) continue;
+          const int at = j * (kCells + 1) + i, up = at + kCells + 1;
+          // The diagonal runs from lower right to upper left, as the vertex shader's morph has it.
+          for (const int index : {at, at + 1, up, at + 1, up + 1, up})
+            indices.push_back(static_cast<std::uint16_t>(index));
+        }
+      b.count = static_cast<GLsizei>(indices.size() - b.offset / sizeof(std::uint16_t));
+    }
+  };
+  add(rings_[0], glm::ivec2(0), glm::ivec2(0));
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 3; ++x) {
+      const glm::ivec2 low = glm::ivec2(kCells / 4 - 1) + glm::ivec2(x, y);
+      add(rings_[static_cast<std::size_t>(1 + 3 * y + x)], low, low + kCells / 2);
+    }
   gl.GenVertexArrays(1, &array_);
   gl.BindVertexArray(array_);
   gl.GenBuffers(1, &indices_);
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
-  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)),
+  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)),
                 indices.data(), GL_STATIC_DRAW);
   gl.BindVertexArray(0);
 }
@@ -57,98 +78,149 @@ LandMesh::~LandMesh() {
 }
 
 void LandMesh::update(const glm::dvec3& eye) {
-  for (int l = 0; l < kLevels; ++l) {
+  const double above = eye.z - std::max(terrain_.height(eye.x, eye.y), 0.0);
+  first_ = 0;
+  while (first_ + 2 < kLevels && above > kHighest * cellOf(first_)) ++first_;
+  sunken_ = static_cast<float>(std::clamp((above / cellOf(first_) - kHigh) / (kHighest - kHigh), 0.0, 1.0));
+  for (int l = first_; l < kLevels; ++l) {
     const double snap = 2.0 * cellOf(l);
     const glm::dvec2 centre(std::round(eye.x / snap) * snap, std::round(eye.y / snap) * snap);
     const glm::dvec2 corner = centre - 0.5 * kCells * cellOf(l);
-    Level& level = levels_[static_cast<std::size_t>(l)];
-    if (!level.made || level.corner != corner) make(l, corner);
+    const Level& level = levels_[static_cast<std::size_t>(l)];
+    if (level.heights.empty() || level.corner != corner) make(l, corner);
   }
 }
 
 void LandMesh::make(int index, const glm::dvec2& corner) {
   Level& level = levels_[static_cast<std::size_t>(index)];
-  level.corner = corner;
-  level.made = true;
   const double spacing = 0.5 * cellOf(index);
-  constexpr int kWide = kTexels + 2;  // with a border for slopes
-  std::vector<float> heights(static_cast<std::size_t>(kWide) * kWide);
-  std::vector<float> texels(static_cast<std::size_t>(kTexels) * kTexels * 4);
-  const auto at = [&](int x, int y) -> float& { return heights[static_cast<std::size_t>(y + 1) * kWide + x + 1]; };
+  // What is known of it already, so many texels aside.
+  const glm::dvec2 aside = (corner - level.corner) / spacing;
+  const bool known = !level.heights.empty() && std::max(std::abs(aside.x), std::abs(aside.y)) < kWide;
+  const int right = known ? static_cast<int>(std::lround(aside.x)) : kWide,
+            up = known ? static_cast<int>(std::lround(aside.y)) : kWide;
+  std::vector<float> heights(static_cast<std::size_t>(kWide) * kWide), woods(heights.size());
+  const auto place = [](int x, int y) { return static_cast<std::size_t>(y) * kWide + static_cast<std::size_t>(x); };
   parallelFor(kWide, 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row)
-      for (int x = -1; x <= kTexels; ++x) {
-        const int y = static_cast<int>(row) - 1;
-        const double east = corner.x + spacing * x, north = corner.y + spacing * y;
-        at(x, y) = static_cast<float>(terrain_.height(east, north));
-        if (x >= 0 && x < kTexels && y >= 0 && y < kTexels)
-          texels[(static_cast<std::size_t>(y) * kTexels + x) * 4 + 3] = static_cast<float>(terrain_.woods(east, north));
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+      for (int x = 0; x < kWide; ++x) {
+        const int fromX = x + right, fromY = y + up;
+        if (fromX >= 0 && fromX < kWide && fromY >= 0 && fromY < kWide) {
+          heights[place(x, y)] = level.heights[place(fromX, fromY)];
+          woods[place(x, y)] = level.woods[place(fromX, fromY)];
+        } else {
+          const double east = corner.x + spacing * (x - 1), north = corner.y + spacing * (y - 1);
+          heights[place(x, y)] = static_cast<float>(terrain_.height(east, north));
+          woods[place(x, y)] = static_cast<float>(terrain_.woods(east, north));
+        }
       }
   });
+  level.corner = corner;
+  level.heights = std::move(heights);
+  level.woods = std::move(woods);
+
+  const auto at = [&](int x, int y) { return level.heights[place(x + 1, y + 1)]; };
+  std::vector<float> texels(static_cast<std::size_t>(kTexels) * kTexels * 4);
   const auto twice = static_cast<float>(2.0 * spacing);
   for (int y = 0; y < kTexels; ++y)
     for (int x = 0; x < kTexels; ++x) {
-      float* t = &texels[(static_cast<std::size_t>(y) * kTexels + x) * 4];
+      float* t = &texels[(static_cast<std::size_t>(y) * kTexels + static_cast<std::size_t>(x)) * 4];
       t[0] = at(x, y);
       t[1] = (at(x + 1, y) - at(x - 1, y)) / twice;
       t[2] = (at(x, y + 1) - at(x, y - 1)) / twice;
+      t[3] = level.woods[place(x + 1, y + 1)];
     }
+  // The next level, which shows through towards the edge, may have its texels two aside.
   for (int block = 0; block < kBlocks * kBlocks; ++block) {
-    glm::vec2 range(std::numeric_limits<float>::max(), 0.0f);
+    glm::vec2 range(std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest());
     const int x0 = block % kBlocks * 2 * kBlockCells, y0 = block / kBlocks * 2 * kBlockCells;
-    for (int y = y0; y <= y0 + 2 * kBlockCells; ++y)
-      for (int x = x0; x <= x0 + 2 * kBlockCells; ++x) {
-        range.x = std::min(range.x, std::max(at(x, y), 0.0f));
+    for (int y = std::max(y0 - 2, -1); y <= std::min(y0 + 2 * kBlockCells + 2, kTexels); ++y)
+      for (int x = std::max(x0 - 2, -1); x <= std::min(x0 + 2 * kBlockCells + 2, kTexels); ++x) {
+        range.x = std::min(range.x, at(x, y));
         range.y = std::max(range.y, at(x, y));
       }
-    level.heights[static_cast<std::size_t>(block)] = range;
+    level.range[static_cast<std::size_t>(block)] = range;
   }
-  level.texture = gl::Texture(gl_, gl::Texture::Kind::plane, gl::kRgba32F, kTexels, kTexels, 0, gl::Filter::linear,
-                              gl::Addressing::clamp, texels.data());
+  gl_.BindTexture(texture_.target(), texture_.id());
+  gl_.TexSubImage3D(texture_.target(), 0, 0, 0, index, kTexels, kTexels, 1, GL_RGBA, GL_FLOAT, texels.data());
 }
 
-void LandMesh::draw(const gl::Program& program, const glm::dvec3& eye, const glm::mat4& clip, int firstUnit) const {
-  gl_.BindVertexArray(array_);
-  gl_.Uniform1i(program.uniform("uLevel"), firstUnit);
-  gl_.Uniform1i(program.uniform("uCoarser"), firstUnit + 1);
-  for (int l = 0; l < kLevels; ++l) {
+const LandMesh::Ring& LandMesh::ringOf(int index) const {
+  if (index == first_) return rings_[0];
+  const Level &level = levels_[static_cast<std::size_t>(index)], &finer = levels_[static_cast<std::size_t>(index) - 1];
+  const glm::dvec2 hole = (finer.corner - level.corner) / cellOf(index) - (kCells / 4 - 1.0);
+  return rings_[static_cast<std::size_t>(1 + 3 * std::lround(hole.y) + std::lround(hole.x))];
+}
+
+LandKind LandMesh::kindOf(const glm::dvec2& low, const glm::dvec2& high, const glm::vec2& range,
+                          const glm::dvec3& aircraft) const {
+  // The runway, which may lie aslant: by the circle round it.
+  const Runway& runway = terrain_.runway();
+  const glm::dvec2 toRunway = glm::clamp(glm::dvec2(0.0), low, high),
+                   toAircraft = glm::clamp(glm::dvec2(aircraft), low, high) - glm::dvec2(aircraft);
+  const double above = std::max(aircraft.z - static_cast<double>(std::max(range.y, 0.0f)), 0.0);
+  if (glm::length(toRunway) < std::hypot(0.5 * runway.length, 0.5 * runway.width) + kRunwayReach ||
+      std::hypot(toAircraft.x, toAircraft.y, above) < kShadeReach)
+    return LandKind::close;
+  if (range.x > kShore) return LandKind::land;
+  return range.y < -kShore ? LandKind::sea : LandKind::shore;
+}
+
+LandMesh::Blocks LandMesh::inSight(const glm::dvec3& eye, const glm::mat4& clip, const glm::dvec3& aircraft) const {
+  Blocks blocks;
+  for (int l = first_; l < kLevels; ++l) {
     const Level& level = levels_[static_cast<std::size_t>(l)];
-    const Level& coarser = levels_[static_cast<std::size_t>(std::min(l + 1, kLevels - 1))];
-    const double cell = cellOf(l);
-    const glm::vec2 corner(level.corner - glm::dvec2(eye)), coarseCorner(coarser.corner - glm::dvec2(eye));
-    gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(firstUnit));
-    gl_.BindTexture(GL_TEXTURE_2D, level.texture.id());
-    gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(firstUnit + 1));
-    gl_.BindTexture(GL_TEXTURE_2D, coarser.texture.id());
-    gl_.Uniform4f(program.uniform("uCorner"), corner.x, corner.y, static_cast<float>(cell),
-                  l + 1 < kLevels ? 1.0f : 0.0f);
-    gl_.Uniform3f(program.uniform("uCoarseCorner"), coarseCorner.x, coarseCorner.y,
-                  static_cast<float>(l + 1 < kLevels ? 2.0 * cell : cell));
-    // What the finer level covers, but for a hair's breadth against gaps.
-    glm::vec4 hole(1.0f, 1.0f, -1.0f, -1.0f);
-    if (l > 0) {
-      const double inside = 0.01 * cell, width = kCells * cellOf(l - 1);
-      const glm::dvec2 low = levels_[static_cast<std::size_t>(l - 1)].corner - glm::dvec2(eye) + inside;
-      hole = glm::vec4(glm::vec2(low), glm::vec2(low + width - 2.0 * inside));
-    }
-    gl_.Uniform4f(program.uniform("uHole"), hole.x, hole.y, hole.z, hole.w);
+    const Ring& ring = ringOf(l);
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
-      const double side = kBlockCells * cell;
-      const glm::vec2 low = corner + glm::vec2(static_cast<float>(side * (block % kBlocks)),
-                                               static_cast<float>(side * (block / kBlocks)));
-      const glm::vec2 high = low + static_cast<float>(side);
-      if (low.x > hole.x && low.y > hole.y && high.x < hole.z && high.y < hole.w) continue;
-      const glm::vec2 range = level.heights[static_cast<std::size_t>(block)];
-      const glm::vec2 farthest = glm::max(glm::abs(low), glm::abs(high));
+      Block b = ring.blocks[static_cast<std::size_t>(block)];
+      if (b.count == 0) continue;
+      b.level = l;
+      const double side = kBlockCells * cellOf(l);
+      const glm::dvec2 low = level.corner + side * glm::dvec2(block % kBlocks, block / kBlocks), high = low + side;
+      const glm::vec2 range = level.range[static_cast<std::size_t>(block)], from(low - glm::dvec2(eye)),
+                      to(high - glm::dvec2(eye));
+      const glm::vec2 farthest = glm::max(glm::abs(from), glm::abs(to));
       const double sunk = static_cast<double>(farthest.x * farthest.x + farthest.y * farthest.y) / (2.0 * kEarth);
-      const auto under = static_cast<float>(eye.z + sunk);
-      if (!maySee(clip, glm::vec3(low, range.x - under), glm::vec3(high, range.y - static_cast<float>(eye.z))))
-        continue;
-      constexpr std::size_t kCount = static_cast<std::size_t>(kBlockCells) * kBlockCells * 6;
-      const std::size_t offset = static_cast<std::size_t>(block) * kCount * sizeof(std::uint32_t);
-      gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(kCount), GL_UNSIGNED_INT, bufferOffset(offset));
+      if (maySee(clip, glm::vec3(from, std::max(range.x, 0.0f) - static_cast<float>(eye.z + sunk)),
+                 glm::vec3(to, std::max(range.y, 0.0f) - static_cast<float>(eye.z))))
+        blocks[static_cast<std::size_t>(kindOf(low, high, range, aircraft))].push_back(b);
     }
   }
+  return blocks;
+}
+
+// From the eye; the size of a cell; how far the level has taken the shape of the next one throughout.
+glm::vec4 LandMesh::cornerOf(int level, const glm::dvec3& eye) const {
+  const glm::vec2 corner(levels_[static_cast<std::size_t>(level)].corner - glm::dvec2(eye));
+  return {corner, static_cast<float>(cellOf(level)), level == first_ ? sunken_ : 0.0f};
+}
+
+void LandMesh::draw(const gl::Program& program, const glm::dvec3& eye, std::span<const Block> blocks, int unit) const {
+  gl_.BindVertexArray(array_);
+  gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl_.BindTexture(texture_.target(), texture_.id());
+  gl_.Uniform1i(program.uniform("uLand"), unit);
+  int now = -1;
+  for (const Block& block : blocks) {
+    if (block.level != now) {
+      now = block.level;
+      const glm::vec4 corner = cornerOf(now, eye);
+      gl_.Uniform4f(program.uniform("uCorner"), corner.x, corner.y, corner.z, corner.w);
+      gl_.Uniform2f(program.uniform("uLevel"), static_cast<float>(now), now + 1 < kLevels ? 1.0f : 0.0f);
+    }
+    gl_.DrawElements(GL_TRIANGLES, block.count, GL_UNSIGNED_SHORT, bufferOffset(block.offset));
+  }
+}
+
+void LandMesh::bind(const gl::Program& program, const glm::dvec3& eye, int unit) const {
+  gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  gl_.BindTexture(texture_.target(), texture_.id());
+  gl_.Uniform1i(program.uniform("uLand"), unit);
+  std::array<glm::vec4, kLevels> corners;
+  for (int l = 0; l < kLevels; ++l) corners[static_cast<std::size_t>(l)] = cornerOf(l, eye);
+  gl_.Uniform4fv(program.uniform("uCorners"), kLevels, &corners.front().x);
+  gl_.Uniform3f(program.uniform("uFirst"), static_cast<float>(first_), static_cast<float>(kLevels - 1),
+                static_cast<float>(kFinest));
 }
 
 }  // namespace welkin::viewer

@@ -4,12 +4,18 @@
 #include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "apps/viewer/flight/terrain.hpp"
 #include "welkin/gl/objects.hpp"
 
 namespace welkin::viewer {
+
+// What a block shows. The software driver runs all of a shader, so each kind has a program of its own
+// (land_shader.hpp); `close` is a block that the runway or the aircraft's shadow may touch.
+enum class LandKind { land, sea, shore, close };
+inline constexpr int kLandKinds = 4;
 
 class LandMesh {
  public:
@@ -22,25 +28,50 @@ class LandMesh {
   LandMesh(const LandMesh&) = delete;
   LandMesh& operator=(const LandMesh&) = delete;
 
-  // Follows the eye: levels that it has moved over are made anew.
+  // Part of a level, as indices.
+  struct Block {
+    int level;
+    std::size_t offset;  // bytes
+    GLsizei count;
+  };
+  using Blocks = std::array<std::vector<Block>, kLandKinds>;
+
+  // Follows the eye: levels that it has moved over get what is new.
   void update(const glm::dvec3& eye);
-  // Draws with a program that has the uniforms of land_shader.hpp. `clipFromEye`: of positions relative to the eye.
-  void draw(const gl::Program& program, const glm::dvec3& eye, const glm::mat4& clipFromEye, int firstUnit) const;
+  // What may be in sight, by kind, the nearest level first. `clipFromEye`: of positions relative to the eye;
+  // `aircraft`: its place.
+  Blocks inSight(const glm::dvec3& eye, const glm::mat4& clipFromEye, const glm::dvec3& aircraft) const;
+  // Draws blocks with a program of kShapeVertex, the textures of the levels on this unit.
+  void draw(const gl::Program& program, const glm::dvec3& eye, std::span<const Block> blocks, int unit) const;
+  // Gives a program of kLandFragment what the levels hold.
+  void bind(const gl::Program& program, const glm::dvec3& eye, int unit) const;
 
  private:
   static constexpr int kBlocks = 8, kBlockCells = kCells / kBlocks;  // a side
+  static constexpr int kWide = kTexels + 2;                          // heights a side: with a border for slopes
+  // Indices of a level round the finer one inside it, which stands in its middle or a cell aside.
+  struct Ring {
+    std::array<Block, kBlocks * kBlocks> blocks{};
+  };
   struct Level {
-    gl::Texture texture;  // height, slopes to east and north, woods
     glm::dvec2 corner{0.0};
-    bool made = false;
-    std::array<glm::vec2, kBlocks * kBlocks> heights{};  // of each block, least and most
+    std::vector<float> heights, woods;
+    std::array<glm::vec2, kBlocks * kBlocks> range{};  // of the heights in and next to each block
   };
   static double cellOf(int level) { return kFinest * (1 << level); }
   void make(int level, const glm::dvec2& corner);
+  const Ring& ringOf(int level) const;
+  glm::vec4 cornerOf(int level, const glm::dvec3& eye) const;
+  LandKind kindOf(const glm::dvec2& low, const glm::dvec2& high, const glm::vec2& range,
+                  const glm::dvec3& aircraft) const;
 
   const gl::Api& gl_;
   const Terrain& terrain_;
   std::array<Level, kLevels> levels_;
+  gl::Texture texture_;         // height, slopes to east and north, woods; a layer for each level
+  int first_ = 0;               // the finest level that is drawn: from high up the finest ones show nothing
+  float sunken_ = 0.0f;         // how far that one has taken the shape of the next
+  std::array<Ring, 10> rings_;  // whole, then by the place of the hole
   GLuint array_ = 0, indices_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace welkin::viewer {
 
 namespace {
 
-constexpr int kUnits = 7;  // that the include takes, from 0
+constexpr int kUnits = 9;  // that the include takes, from 0
 
 constexpr const char* kLawText = R"(
 #include "welkin/base/law.glsl"
@@ -194,39 +194,91 @@ void ModelBuffer::draw() const {
 }
 
 Scenery::Scenery(const gl::Api& gl, const Flight& flight)
-    : gl_(gl), flight_(flight), land_(makeProgram(gl, "land", kLawText, kLandFragment, kLandVertex)),
+    : gl_(gl), flight_(flight), shape_(gl, "land's shape", "", kShapeFragment, realtime::shaderSource, kShapeVertex),
       model_(makeProgram(gl, "model", "", kModelFragment, kModelVertex)),
       propeller_(makeProgram(gl, "propeller", "", kPropellerFragment, kPropellerVertex)), mesh_(gl, flight.terrain()),
-      aircraft_(gl, aircraftMesh()), airfield_(gl, airfieldMesh()), none_(gl) {}
+      aircraft_(gl, aircraftMesh()), airfield_(gl, airfieldMesh()), none_(gl), shapes_(gl) {}
 
-void Scenery::drawSurfaces(const realtime::Frame& frame, const Bind& bind) {
+void Scenery::drawSurfaces(const realtime::Frame& frame, const Target& target, const Bind& bind) {
+  drawLand(frame, target, bind);
   drawModels(frame, bind);
-  drawLand(frame, bind);
   gl_.check("drawing the land");
 }
 
-void Scenery::drawLand(const realtime::Frame& frame, const Bind& bind) {
+const gl::Program& Scenery::landProgram(LandKind kind) {
+  constexpr const char* kDefines[kLandKinds] = {"#define LAND\n", "#define SEA\n", "#define LAND\n#define SEA\n",
+                                                "#define LAND\n#define SEA\n#define CLOSE\n"};
+  gl::Program& land = land_[static_cast<std::size_t>(kind)][rains_ ? 1 : 0];
+  if (!land.id())
+    land = gl::Program(
+        gl_, "land", std::string(kDefines[static_cast<std::size_t>(kind)]) + (rains_ ? "#define RAIN\n" : ""),
+        realtime::Renderer::hostShader() + kLawText + kLandFragment, realtime::shaderSource, kLandVertex);
+  return land;
+}
+
+// Depth of the land, which kind of it each pixel shows (stencil), and how far it is.
+void Scenery::drawShape(const realtime::Frame& frame, const Target& target, const LandMesh::Blocks& blocks) {
+  if (!along_ || along_.width() != frame.width || along_.height() != frame.height)
+    along_ = gl::Texture(gl_, gl::Texture::Kind::plane, gl::kR32F, frame.width, frame.height, 0, gl::Filter::nearest,
+                         gl::Addressing::clamp, nullptr);
+  const gl::Texture* const targets[] = {&along_};
+  shapes_.target(targets);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, target.depth, 0);
+  gl_.UseProgram(shape_.id());
+  setMatrix(gl_, shape_, "uClipFromEye", clipFromEye(frame));
+  const glm::dvec3 eye = eyeOf(frame);
+  gl_.Uniform1f(shape_.uniform("uEyeHeight"), static_cast<float>(eye.z));
+  gl_.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  for (int kind = 0; kind < kLandKinds; ++kind) {
+    gl_.StencilFunc(GL_ALWAYS, kind + 1, 0xff);
+    mesh_.draw(shape_, eye, blocks[static_cast<std::size_t>(kind)], 0);
+  }
+}
+
+void Scenery::drawLand(const realtime::Frame& frame, const Target& target, const Bind& bind) {
   const glm::dvec3 eye = eyeOf(frame);
   mesh_.update(eye);
-  gl_.UseProgram(land_.id());
-  bind(land_.id());
-  const glm::mat4 clip = clipFromEye(frame);
-  setMatrix(gl_, land_, "uClipFromEye", clip);
-  gl_.Uniform1f(land_.uniform("uEyeHeight"), static_cast<float>(eye.z));
-  gl_.Uniform2f(land_.uniform("uEyePlace"), static_cast<float>(eye.x), static_cast<float>(eye.y));
-  gl_.Uniform1f(land_.uniform("uPixel"), 2.0f / (frame.projection[0][0] * static_cast<float>(frame.width)));
-  gl_.Uniform1f(land_.uniform("uExposure"), frame.preExposure);
-  gl_.Uniform1f(land_.uniform("uTime"), static_cast<float>(std::fmod(frame.time, 3600.0)));
-  const Runway& runway = flight_.terrain().runway();
-  gl_.Uniform4f(land_.uniform("uRunway"), static_cast<float>(std::sin(runway.heading)),
-                static_cast<float>(std::cos(runway.heading)), static_cast<float>(0.5 * runway.length),
-                static_cast<float>(0.5 * runway.width));
-  const glm::vec3 wind(meanWind(wind_, 10.0));
-  gl_.Uniform2f(land_.uniform("uWind"), wind.x, wind.y);
-  const glm::mat3 body(glm::transpose(glm::mat3_cast(flight_.aircraft().attitude)));
-  setMatrix(gl_, land_, "uBodyFromWorld", body);
-  setVector(gl_, land_, "uAircraft", glm::vec3(flight_.aircraft().position - eye));
-  mesh_.draw(land_, eye, clip, kUnits);
+  const Aircraft& aircraft = flight_.aircraft();
+  const LandMesh::Blocks blocks = mesh_.inSight(eye, clipFromEye(frame), aircraft.position);
+  gl_.Enable(GL_STENCIL_TEST);
+  drawShape(frame, target, blocks);
+
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  gl_.BindVertexArray(none_.id());
+  const glm::mat3 worldFromEye = glm::transpose(glm::mat3(frame.view));
+  const float x = 1.0f / frame.projection[0][0], y = 1.0f / frame.projection[1][1];
+  for (int kind = 0; kind < kLandKinds; ++kind) {
+    if (blocks[static_cast<std::size_t>(kind)].empty()) continue;
+    const gl::Program& land = landProgram(static_cast<LandKind>(kind));
+    gl_.UseProgram(land.id());
+    bind(land.id());
+    mesh_.bind(land, eye, kUnits);
+    gl_.ActiveTexture(GL_TEXTURE0 + kUnits + 1);
+    gl_.BindTexture(GL_TEXTURE_2D, along_.id());
+    gl_.Uniform1i(land.uniform("uAlong"), kUnits + 1);
+    setVector(gl_, land, "uForward",
+              worldFromEye * glm::vec3(frame.projection[2][0] * x, frame.projection[2][1] * y, -1.0f));
+    setVector(gl_, land, "uRight", worldFromEye * glm::vec3(x, 0.0f, 0.0f));
+    setVector(gl_, land, "uAbove", worldFromEye * glm::vec3(0.0f, y, 0.0f));
+    gl_.Uniform2f(land.uniform("uEyePlace"), static_cast<float>(eye.x), static_cast<float>(eye.y));
+    gl_.Uniform1f(land.uniform("uPixel"), 2.0f * x / static_cast<float>(frame.width));
+    gl_.Uniform1f(land.uniform("uExposure"), frame.preExposure);
+    gl_.Uniform1f(land.uniform("uTime"), static_cast<float>(std::fmod(frame.time, 3600.0)));
+    const Runway& runway = flight_.terrain().runway();
+    gl_.Uniform4f(land.uniform("uRunway"), static_cast<float>(std::sin(runway.heading)),
+                  static_cast<float>(std::cos(runway.heading)), static_cast<float>(0.5 * runway.length),
+                  static_cast<float>(0.5 * runway.width));
+    const glm::vec3 wind(meanWind(wind_, 10.0));
+    gl_.Uniform2f(land.uniform("uWind"), wind.x, wind.y);
+    setMatrix(gl_, land, "uBodyFromWorld", glm::mat3(glm::transpose(glm::mat3_cast(aircraft.attitude))));
+    setVector(gl_, land, "uAircraft", glm::vec3(aircraft.position - eye));
+    gl_.StencilFunc(GL_EQUAL, kind + 1, 0xff);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  gl_.Disable(GL_STENCIL_TEST);
+  gl_.Enable(GL_DEPTH_TEST);
 }
 
 void Scenery::drawModels(const realtime::Frame& frame, const Bind& bind) {

@@ -1,10 +1,13 @@
 #pragma once
 // Land, airfield and aircraft as the sky's foreground.
+#include <array>
+
 #include "apps/viewer/flight/flight.hpp"
 #include "apps/viewer/flight_view/land_mesh.hpp"
 #include "apps/viewer/flight_view/model_mesh.hpp"
 #include "apps/viewer/picture/foreground.hpp"
 #include "welkin/gl/objects.hpp"
+#include "welkin/scene/rain.hpp"
 
 namespace welkin::viewer {
 
@@ -28,23 +31,33 @@ class Scenery final : public Foreground {
   // Both outlive it.
   Scenery(const gl::Api& gl, const Flight& flight);
 
-  // Of the air over the sea, m/s.
-  void setWind(const Wind& wind) { wind_ = wind; }
+  // The wind over the sea, and whether anything falls.
+  void setScene(const Scene& scene) {
+    wind_ = scene.wind;
+    rains_ = rains(scene);
+  }
+  glm::dvec3 velocity() const override { return flight_.aircraft().velocity; }
 
-  void drawSurfaces(const realtime::Frame& frame, const Bind& bind) override;
+  void drawSurfaces(const realtime::Frame& frame, const Target& target, const Bind& bind) override;
   void drawGlass(const realtime::Frame& frame, const Bind& bind) override;
 
  private:
-  void drawLand(const realtime::Frame& frame, const Bind& bind);
+  void drawShape(const realtime::Frame& frame, const Target& target, const LandMesh::Blocks& blocks);
+  void drawLand(const realtime::Frame& frame, const Target& target, const Bind& bind);
+  const gl::Program& landProgram(LandKind kind);
   void drawModels(const realtime::Frame& frame, const Bind& bind);
 
   const gl::Api& gl_;
   const Flight& flight_;
-  gl::Program land_, model_, propeller_;
+  std::array<std::array<gl::Program, 2>, kLandKinds> land_;  // dry, and where it rains; compiled when first needed
+  gl::Program shape_, model_, propeller_;
   LandMesh mesh_;
   ModelBuffer aircraft_, airfield_;
   gl::VertexArray none_;
+  gl::Texture along_;  // the view's way to the land, m
+  gl::Framebuffer shapes_;
   Wind wind_;
+  bool rains_ = false;
 };
 
 }  // namespace welkin::viewer

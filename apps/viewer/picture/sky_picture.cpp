@@ -17,6 +17,8 @@ namespace {
 
 // Rounds of the interleave after which a picture at rest stays as it is.
 constexpr int kRounds = 4;
+// How far the governor may go down with the resolution of a moving picture.
+constexpr float kLeastScale = 0.42f;
 
 constexpr const char* kShowText = R"(
 #include "welkin/base/law.glsl"
@@ -24,21 +26,21 @@ constexpr const char* kShowText = R"(
 layout(std140) uniform Tone { ToneParameters uTone; };
 uniform sampler2D uLight;
 uniform sampler2D uReference;
-uniform int uComparison;  // 0: none; then the order of Comparison, from 1
+uniform int uComparison;  // the order of Comparison, from 1
 uniform float uWipe;
 in vec2 vUv;
 layout(location = 0) out vec4 oColour;
 void main() {
   vec3 shown = toneMap(textureLod(uLight, vUv, 0.0).rgb, uTone);
-  if (uComparison > 0) {
-    vec4 reference = textureLod(uReference, vUv, 0.0);
-    vec3 traced = toneMap(reference.rgb, uTone);
-    // What has not been traced yet stays dark.
-    if (reference.a < 0.99) traced = 0.15 * shown;
-    if (uComparison == 1) shown = vUv.x < uWipe ? shown : traced;
-    if (uComparison == 2) shown = traced;
-    if (uComparison == 3) shown = reference.a < 0.99 ? vec3(0.5) : vec3(0.5) + 4.0 * (shown - traced);
-  }
+#ifdef COMPARE  // a variant: the software driver runs all of a shader
+  vec4 reference = textureLod(uReference, vUv, 0.0);
+  vec3 traced = toneMap(reference.rgb, uTone);
+  // What has not been traced yet stays dark.
+  if (reference.a < 0.99) traced = 0.15 * shown;
+  if (uComparison == 1) shown = vUv.x < uWipe ? shown : traced;
+  if (uComparison == 2) shown = traced;
+  if (uComparison == 3) shown = reference.a < 0.99 ? vec3(0.5) : vec3(0.5) + 4.0 * (shown - traced);
+#endif
   // Half a step of noise against bands (J. Jimenez 2014, interleaved gradient noise).
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   oColour = vec4(shown + (noise - 0.5) / 255.0, 1.0);
@@ -89,7 +91,8 @@ struct Canvas {
   realtime::View view;
   int frames = 0;  // since it was begun anew
 
-  void fit(const gl::Api& gl, int width, int height) {
+  // `goesOn`: what was seen is seen on, at another resolution.
+  void fit(const gl::Api& gl, int width, int height, bool goesOn = false) {
     if (light && light.width() == width && light.height() == height) return;
     light = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba32F, width, height, 0, gl::Filter::linear,
                         gl::Addressing::clamp, nullptr);
@@ -97,7 +100,7 @@ struct Canvas {
     const gl::Texture* targets[] = {&light};
     framebuffer.target(targets);
     gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
-    view.reset();
+    if (!goesOn) view.reset();
     frames = 0;
     depth = {};
   }
@@ -105,12 +108,12 @@ struct Canvas {
   // A foreground needs depth besides.
   void fitDepth(const gl::Api& gl) {
     if (depth) return;
-    depth = gl::Texture(gl, gl::Texture::Kind::plane, gl::kDepth32F, light.width(), light.height(), 0,
+    depth = gl::Texture(gl, gl::Texture::Kind::plane, gl::kDepth32FStencil8, light.width(), light.height(), 0,
                         gl::Filter::nearest, gl::Addressing::clamp, nullptr);
     if (!depthName) withDepth = gl::Framebuffer(gl);
     const gl::Texture* targets[] = {&light};
     withDepth.target(targets);
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.id(), 0);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_TEXTURE_2D, depth.id(), 0);
     gl.GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &depthName);
   }
 };
@@ -122,6 +125,7 @@ struct SkyPicture::State {
   realtime::Renderer renderer;
   gl::VertexArray triangle;
   gl::Program showProgram, meterProgram;
+  mutable gl::Program compareProgram;  // made when first needed
   mutable gl::UniformBuffer tone;
   mutable gl::Framebuffer scratch;
   gl::Texture meter;
@@ -157,7 +161,7 @@ struct SkyPicture::State {
   void makeGovernor() {
     governor.reset();
     if (target <= 0.0) return;
-    governor.emplace(realtime::GovernorSettings{.target = target, .best = wanted});
+    governor.emplace(realtime::GovernorSettings{.target = target, .best = wanted, .leastScale = kLeastScale});
   }
   const Quality& movingQuality() const { return governor ? governor->quality() : wanted; }
 
@@ -190,6 +194,7 @@ struct SkyPicture::State {
     frame.background = realtime::Background::sky;
     frame.origin = glm::dvec2(frame.position);
     frame.position = {0.0, 0.0, frame.position.z};
+    frame.velocity = foreground->velocity();
     if (!clipsFromZero) {
       // The viewport halves depths and adds a half.
       frame.projection[2][2] = 1.0f;
@@ -214,9 +219,8 @@ struct SkyPicture::State {
     renderer.prepare(canvas.view, frame);
     begin();
     gl.DepthMask(GL_TRUE);
-    const float farthest = 0.0f;
-    gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
-    foreground->drawSurfaces(frame, bind);
+    gl.ClearBufferfi(GL_DEPTH_STENCIL, 0, 0.0f, 0);
+    foreground->drawSurfaces(frame, {static_cast<unsigned>(canvas.depthName), canvas.depth.id()}, bind);
     end();
     frame.depthTexture = canvas.depth.id();
     renderer.render(canvas.view, frame);
@@ -268,11 +272,12 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
   State& s = *state_;
   width = std::clamp(width, 1, 8192);
   height = std::clamp(height, 1, 8192);
+  if (s.governor) scale *= s.governor->scale();
   const auto scaled = [&](int edge) {
     return std::max(static_cast<int>(std::lround(scale * static_cast<float>(edge))), std::min(edge, 16));
   };
-  const bool moves = s.changed || !s.camera || !sameFields(*s.camera, camera) || s.time != time || s.width != width ||
-                     s.height != height;
+  const bool sameWindow = s.width == width && s.height == height;
+  const bool moves = s.changed || !s.camera || !sameFields(*s.camera, camera) || s.time != time || !sameWindow;
   s.changed = s.drewMoving = false;
   s.camera = camera;
   s.time = time;
@@ -282,7 +287,7 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
   if (moves) {
     s.stillShown = false;
     s.still.frames = 0;
-    s.moving.fit(s.gl, scaled(width), scaled(height));
+    s.moving.fit(s.gl, scaled(width), scaled(height), sameWindow);
     s.moving.frames = 0;
   }
   if (s.moving.frames < s.movingFrames()) {
@@ -318,18 +323,23 @@ void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& fi
   s.gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   s.gl.Viewport(region.x, region.y, region.width, region.height);
   s.gl.BindVertexArray(s.triangle.id());
-  s.gl.UseProgram(s.showProgram.id());
-  s.showProgram.bindBlock("Tone", 0);
+  const bool compares = overlay.reference && *overlay.reference;
+  if (compares && !s.compareProgram.id())
+    s.compareProgram = gl::Program(s.gl, "compare", "#define COMPARE\n", kShowText, realtime::shaderSource);
+  const gl::Program& program = compares ? s.compareProgram : s.showProgram;
+  s.gl.UseProgram(program.id());
+  program.bindBlock("Tone", 0);
   s.tone.bind(0);
   s.gl.ActiveTexture(GL_TEXTURE0);
   s.gl.BindTexture(GL_TEXTURE_2D, s.shown().light.id());
-  s.gl.Uniform1i(s.showProgram.uniform("uLight"), 0);
-  const bool compares = overlay.reference && *overlay.reference;
-  s.gl.ActiveTexture(GL_TEXTURE0 + 1);
-  s.gl.BindTexture(GL_TEXTURE_2D, compares ? overlay.reference->id() : s.shown().light.id());
-  s.gl.Uniform1i(s.showProgram.uniform("uReference"), 1);
-  s.gl.Uniform1i(s.showProgram.uniform("uComparison"), compares ? static_cast<int>(overlay.comparison) + 1 : 0);
-  s.gl.Uniform1f(s.showProgram.uniform("uWipe"), overlay.wipe);
+  s.gl.Uniform1i(program.uniform("uLight"), 0);
+  if (compares) {
+    s.gl.ActiveTexture(GL_TEXTURE0 + 1);
+    s.gl.BindTexture(GL_TEXTURE_2D, overlay.reference->id());
+    s.gl.Uniform1i(program.uniform("uReference"), 1);
+    s.gl.Uniform1i(program.uniform("uComparison"), static_cast<int>(overlay.comparison) + 1);
+    s.gl.Uniform1f(program.uniform("uWipe"), overlay.wipe);
+  }
   s.gl.DrawArrays(GL_TRIANGLES, 0, 3);
   s.gl.check("showing the picture");
 }
