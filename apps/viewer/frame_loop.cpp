@@ -173,6 +173,8 @@ void Viewer::command(const ScriptStep& step) {
     savePngOf(gl_, platform_->framebuffer(), platform_->width(), platform_->height(), step.words[0]);
   } else if (step.verb == "picture") {
     options_.savePicture(step.words[0], picture_.read(), bench_.film);
+  } else if (step.verb == "rate") {
+    bench_.pace.wantedRate = std::stof(step.words[0]);
   } else {
     const std::optional<Action> action = actionNamed(step.words[0]);
     if (!action) script_->fail(step, fmt::format("'{}' is not an action", step.words[0]));

@@ -58,6 +58,9 @@ TEST(Script, WhatIsWrongIsSaidWithFileAndLine) {
   EXPECT_NE(refusalOf("click 1,nan\n"), "");
   EXPECT_NE(refusalOf("settle now\n"), "");
   EXPECT_NE(refusalOf("press up\n"), "");
+  EXPECT_NE(refusalOf("rate\n"), "");
+  EXPECT_NE(refusalOf("rate -1\n"), "");
+  EXPECT_EQ(refusalOf("rate 0\nrate 25\n"), "");
 }
 
 TEST(Script, AClickMovesPressesAndReleasesInFramesOfTheirOwn) {

@@ -39,6 +39,7 @@ constexpr std::array kVerbs{Verb{"size", "size WIDTH HEIGHT", 2, 2},
                             Verb{"picture", "picture FILE", 1, 1, true},
                             Verb{"do", "do ACTION [ARGUMENT]", 1, 2, true},
                             Verb{"fly", "fly FRAMES [NAME=VALUE ...], for example fly 120 throttle=1 pitch=0.2", 1, 8},
+                            Verb{"rate", "rate FRAMES_A_SECOND, from 0 to 1000", 1, 1},
                             Verb{"quit", "quit", 0, 0}};
 
 [[noreturn]] void refuse(const std::string& name, int line, const std::string& what) {
@@ -100,6 +101,10 @@ std::string wrongWith(const ScriptStep& step, const Verb& verb) {
   if (button && w.size() > places && !buttonOf(w[places])) return usage;
   if (verb.name == "size" && (!countOf(w[0], 16384) || !countOf(w[1], 16384))) return usage;
   if (verb.name == "wheel" && !numberOf(w[0])) return usage;
+  if (verb.name == "rate") {
+    const std::optional<float> rate = numberOf(w[0]);
+    if (!rate || *rate < 0.0f || *rate > 1000.0f) return usage;
+  }
   if ((verb.name == "frames" || verb.name == "fly") && !countOf(w[0], 100000)) return usage;
   if ((verb.name == "key" || verb.name == "hold") && chordNamed(w[0]).key == Key::none)
     return fmt::format("'{}' is not a key: write for example a, f5, pageup, ctrl+shift+z", w[0]);
