@@ -135,7 +135,8 @@ struct Renderer::State {
   double cloudTime = 0.0;               // s, that classical clouds were made for
   std::vector<PlacedGrid> placedGrids;  // those handed over
   float gridExtinction = 0.0f;          // their greatest, 1/m
-  gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram, airShadeProgram;
+  gl::Program march, lightProgram, sheetProgram, resolve, resolveAveraged, resolveFirstRound, weatherProgram,
+      airShadeProgram;
   std::string marchDefines;
   float billowMix = 0.75f;
   bool counting = false, customised = false;
