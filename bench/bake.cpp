@@ -45,7 +45,7 @@ HeroSpecies speciesNamed(const std::string& name) {
   const auto& names = ChoiceNames<HeroSpecies>::names;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i] == name) return static_cast<HeroSpecies>(i);
-  throw Error(ErrorKind::badInput, name, "is not a species of hero clouds; `welkin cloud` lists them");
+  throw Error(ErrorKind::badInput, name, "is not a species of hero clouds; `welkin fields` lists them");
 }
 
 void run(std::vector<std::string> wanted) {
