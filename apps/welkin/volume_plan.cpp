@@ -9,6 +9,7 @@
 
 #include "apps/welkin/usage_error.hpp"
 #include "welkin/base/error.hpp"
+#include "welkin/density/clear_air.hpp"
 
 namespace welkin::app {
 
@@ -142,30 +143,30 @@ VolumeEstimate estimateOf(const DensityField& field, const Region& region, doubl
   constexpr int kBricks = 256, kPoints = VoxelGrid::kBrickVoxels;
   const double brick = VoxelGrid::kBrick * voxel;
   const glm::dvec3 bricks = glm::round((region.high - region.low) / brick);
-  std::vector<glm::dvec3> points;
+  const ClearAir clear(field);
+  std::vector<glm::dvec3> points;  // of the bricks that baking does not pass over
   for (int i = 0; i < kBricks; ++i) {
     // Places of a low-discrepancy sequence (R3: Roberts 2018).
     const glm::dvec3 at(std::fmod(0.8191725134 * (i + 1), 1.0), std::fmod(0.6710436067 * (i + 1), 1.0),
                         std::fmod(0.5497004779 * (i + 1), 1.0));
     const glm::dvec3 corner = region.low + glm::floor(at * bricks) * brick;
+    if (clear.holds(corner, corner + brick)) continue;
     for (int k = 0; k < kPoints; ++k) points.push_back(corner + (glm::dvec3(k % 8, k / 8 % 8, k / 64) + 0.5) * voxel);
   }
   const auto start = std::chrono::steady_clock::now();
   const std::vector<float> found = field.extinction(points);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   double active = 0.0, activeBricks = 0.0;
-  for (int i = 0; i < kBricks; ++i) {
-    const auto first = found.begin() + i * kPoints;
+  for (auto first = found.begin(); first != found.end(); first += kPoints) {
     const auto count = std::count_if(first, first + kPoints, [](float v) { return v > 0.0f; });
     active += static_cast<double>(count) / kPoints;
     activeBricks += count > 0;
   }
   const double all = bricks.x * bricks.y * bricks.z;
-  // Storing takes some 10 ns a voxel more on one core of 2020.
   return {.voxels = all * kPoints,
           .activeVoxels = all * kPoints * active / kBricks,
           .activeBricks = all * activeBricks / kBricks,
-          .seconds = all * kPoints * (seconds / static_cast<double>(points.size()) + 1e-8)};
+          .seconds = all * seconds / kBricks};
 }
 
 }  // namespace welkin::app

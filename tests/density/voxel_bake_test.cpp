@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "welkin/density/clear_air.hpp"
+
 namespace welkin {
 namespace {
 
@@ -36,6 +38,36 @@ TEST(VoxelBake, HoldsTheFieldAtTheCentres) {
     cloud += expected > 0.0f;
   }
   EXPECT_GT(cloud, 50);
+}
+
+// Bricks that are passed over hold nothing, and most of what is clear is passed over.
+TEST(VoxelBake, PassesOverClearAirOnly) {
+  for (const HeroSpecies species : {HeroSpecies::mediocris, HeroSpecies::incus, HeroSpecies::cirrus_uncinus}) {
+    Hero hero = heroPreset(species);
+    hero.cloud.position = {3.0e5, -2.0e5, 1500.0};
+    hero.cloud.heading = 0.6f;
+    const DensityField field({.seed = 3, .heroes = std::span(&hero, 1)});
+    const HeroBody& body = field.heroes().front();
+    const glm::dvec3 size = body.highest() - body.lowest();
+    const VoxelBox box{{66, 50, 59}, body.lowest() - 0.02 * size, 1.04 * size / glm::dvec3(66.0, 50.0, 59.0)};
+    const VoxelGrid grid = bakeVoxels(field, box, {});
+    std::vector<glm::dvec3> centres;
+    for (int z = 0; z < box.dims.z; ++z)
+      for (int y = 0; y < box.dims.y; ++y)
+        for (int x = 0; x < box.dims.x; ++x) centres.push_back(box.origin + (glm::dvec3(x, y, z) + 0.5) * box.voxel);
+    const std::vector<float> expected = field.extinction(centres);
+    double sum = 0.0, difference = 0.0;
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      const glm::ivec3 at(i % 66, i / 66 % 50, i / (66 * 50));
+      sum += expected[i];
+      difference += std::abs(grid.at(at) - expected[i]);
+    }
+    EXPECT_GT(sum, 1.0);
+    EXPECT_LT(difference / sum, 1e-4);  // anchors differ
+    const ClearAir clear(field);
+    EXPECT_FALSE(clear.holds(body.lowest(), body.highest()));
+    EXPECT_TRUE(clear.holds(body.highest() + 1.0, body.highest() + 100.0));
+  }
 }
 
 TEST(VoxelBake, KeepsTheOpticalDepthOfTheSky) {

@@ -64,6 +64,8 @@ class DensityField {
   // Those given, then classical clouds.
   const std::vector<PlacedGrid>& grids() const { return grids_; }
   const std::vector<HeroBody>& heroes() const { return bodies_; }
+  // The tile of billows that they share.
+  TextureView heroBillows() const { return textures_.heroBillows.view(); }
 
   // Extinction in 1/m of all layers, grids, classical and hero clouds together; detail finer than `footprint` (m) is
   // replaced by its mean, 0 is the truth.

@@ -16,14 +16,15 @@ struct VoxelBox {
 
 // What the clouds' extinction becomes in the voxels of a file.
 struct VoxelBaking {
-  std::function<glm::dvec3(const glm::dvec3&)> cloudSpace{};  // from the box's axes; they are cloud space's if empty
-  float scale = 1.0f;                                         // value of an extinction of 1/m
+  // From the box's axes, affine; they are cloud space's if empty.
+  std::function<glm::dvec3(const glm::dvec3&)> cloudSpace{};
+  float scale = 1.0f;  // value of an extinction of 1/m
 };
 
 // Samples the field at the centres of the box's voxels, in full detail: that keeps the mean optical depth to half a per
-// cent up to voxels of 80 m, where detail filtered to the voxel's size loses 13 %. Works through it in small blocks:
-// beyond the grid itself it needs a few MiB, however large the box is. The grid has the same bits on any number of
-// threads.
+// cent up to voxels of 80 m, where detail filtered to the voxel's size loses 13 %. Bricks of clear air (clear_air.hpp)
+// are passed over. Beyond the grid itself it needs some 20 MiB, however large the box is. The grid has the same bits on
+// any number of threads.
 VoxelGrid bakeVoxels(const DensityField& field, const VoxelBox& box, const VoxelBaking& baking,
                      const Progress& progress = {});
 
