@@ -167,9 +167,9 @@ TEST_F(ViewCommand, ShowsASkyOverAMap) {
     return loadPng(path(name));
   };
   const Image clear = from("--set layer.weather.coverage=0", "clear.png"), cloudy = from("", "cloudy.png");
-  // 640x360 over a square of 20 km, so high that its height fills the picture's: x from 140 to 500.
-  EXPECT_LT(clear.at(165, 340)[1] + 0.2f, clear.at(165, 250)[1]);
-  EXPECT_LT(clear.at(165, 340)[1] + 0.2f, clear.at(300, 340)[1]);
+  // The map is as wide as the picture, 32 pixels a kilometre: the field's north edge stands in row 340.
+  EXPECT_LT(clear.at(80, 350)[1] + 0.2f, clear.at(80, 330)[1]);
+  EXPECT_LT(clear.at(80, 350)[1] + 0.2f, clear.at(240, 350)[1]);
   EXPECT_LT(psnr(clear, cloudy), 25.0);
   EXPECT_EQ(test::run("view --headless --script none.txt --map " + path("map.png")).code, 2);  // where is it?
   EXPECT_EQ(test::run("view --headless --script none.txt --map-corners 0,0,1,1").code, 2);
