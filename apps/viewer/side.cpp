@@ -68,8 +68,12 @@ void Viewer::drawTabs() {
         ImGui::BeginTabItem(info.title, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);
     interface_.items.mark(std::string("tab ") + info.title);
     if (!shown) continue;
-    bench_.tab = info.tab;
-    info.draw(bench_);
+    // A tab that is asked for is there in the next frame; what stands in its place, the gallery at first, would begin
+    // its work in vain.
+    if (!bench_.wantedTab || wanted) {
+      bench_.tab = info.tab;
+      info.draw(bench_);
+    }
     ImGui::EndTabItem();
   }
   ImGui::EndTabBar();
