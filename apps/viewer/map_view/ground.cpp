@@ -13,7 +13,7 @@ namespace welkin::viewer {
 
 namespace {
 
-constexpr int kUnit = 7;  // the include for hosts takes those before it
+constexpr int kUnit = 9;  // the include for hosts takes those before it
 constexpr int kRings = 90, kSectors = 128;
 
 // Rings round the point below the eye, each a tenth wider than the one inside it, to beyond the horizon.
@@ -131,7 +131,7 @@ void MapGround::upload() {
   gl_.check("making a map's texture");
 }
 
-void MapGround::drawSurfaces(const realtime::Frame& frame, const Bind& bind) {
+void MapGround::drawSurfaces(const realtime::Frame& frame, const Target& /*target*/, const Bind& bind) {
   gl_.UseProgram(program_.id());
   bind(program_.id());
   const glm::mat4 clip = frame.projection * frame.view;

@@ -17,7 +17,8 @@ class MapGround final : public Foreground {
   // Albedo of the land beyond the picture.
   void setSurroundings(const glm::vec3& albedo) { surroundings_ = albedo; }
 
-  void drawSurfaces(const realtime::Frame& frame, const Bind& bind) override;
+  glm::dvec3 velocity() const override { return glm::dvec3(0.0); }
+  void drawSurfaces(const realtime::Frame& frame, const Target& target, const Bind& bind) override;
   void drawGlass(const realtime::Frame& /*frame*/, const Bind& /*bind*/) override {}
 
  private:
