@@ -43,6 +43,11 @@ function(welkin_room NAME)
         set_source_files_properties(${PROJECT_SOURCE_DIR}/welkin/io/vdb.cpp PROPERTIES
                                     COMPILE_DEFINITIONS WELKIN_HAS_OPENVDB=1)
       endif()
+      if(WELKIN_TIFF)
+        target_link_libraries(${TARGET} ${VISIBILITY} TIFF::TIFF)
+        set_source_files_properties(${PROJECT_SOURCE_DIR}/welkin/io/geotiff.cpp PROPERTIES
+                                    COMPILE_DEFINITIONS WELKIN_HAS_TIFF=1)
+      endif()
       if(NANOVDB_INCLUDE_DIR)
         set_source_files_properties(${PROJECT_SOURCE_DIR}/welkin/io/nanovdb.cpp PROPERTIES
                                     COMPILE_DEFINITIONS WELKIN_HAS_NANOVDB=1)

@@ -45,7 +45,11 @@ Viewer::Viewer(const ViewerOptions& options)
                                                                           .picture = picture_,
                                                                           .thumbnails = thumbnails_,
                                                                           .reference = reference_,
-                                                                          .interface = interface_} {
+                                                                          .interface = interface_,
+                                                                          .textures = textures_,
+                                                                          .weather = WeatherDesk(gl_),
+                                                                          .noise = NoiseDesk(gl_),
+                                                                          .slice = SliceDesk(gl_)} {
   if (options.uiScale > 0.0) interface_.setScale(static_cast<float>(options.uiScale));
   if (!options.script.empty()) script_.emplace(parseScript(readFile(options.script, kLongestScript), options.script));
   bench_.perform = [this](Action action, const std::string& argument) { perform(action, argument); };
@@ -60,6 +64,8 @@ Viewer::Viewer(const ViewerOptions& options)
   if (picture_.softwareDriver())
     bench_.say("No GPU was found: the processor draws, coarsely while something moves and in full at rest.");
   if (options.fly) beginFlight();
+  if (options.map) useMap(*options.map);
+  if (options.showMap) showMap(true);
 }
 
 // Whether nothing on screen changes by itself but thumbnails.
@@ -71,7 +77,7 @@ bool Viewer::atRest() const {
 int Viewer::patience() const {
   if (!atRest() || (lively_ > 0 && !script_)) return 0;
   const bool traces = reference_.running() && !reference_.state().complete;
-  if (traces || !thumbnails_.complete()) return 50;
+  if (traces || !thumbnails_.complete() || !bench_.slice.slice.complete()) return 50;
   return script_ ? 0 : 200;
 }
 
@@ -83,7 +89,7 @@ void Viewer::run() {
     bool finished = false;
     if (script_) {
       ScriptPlayer::Frame frame = script_->next([&](const std::string& name) { return interface_.items.find(name); },
-                                                atRest() && thumbnails_.complete());
+                                                atRest() && thumbnails_.complete() && bench_.slice.slice.complete());
       // The user's hands stay out of a script.
       std::erase_if(events, [](const Event& e) { return e.kind != EventKind::quit && e.kind != EventKind::resize; });
       events.insert(events.end(), frame.events.begin(), frame.events.end());
@@ -105,6 +111,7 @@ void Viewer::run() {
       continue;
     }
     if (thumbnails_.collect(gl_)) lively_ = 3;
+    collectSlice();
     entitle();
     interface_.begin(seconds);
     drawPanels();
@@ -121,6 +128,14 @@ void Viewer::run() {
     platform_->present();
   }
   endFlight();
+}
+
+void Viewer::collectSlice() {
+  SliceDesk& desk = bench_.slice;
+  if (!desk.slice.collect()) return;
+  const SlicePicture& picture = desk.slice.picture();
+  if (!picture.rgba.empty()) desk.image.set(picture.width, picture.height, picture.rgba);
+  lively_ = 3;
 }
 
 // What the panels leave free.
@@ -162,9 +177,12 @@ void Viewer::draw(double seconds) {
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
   gl_.Clear(GL_COLOR_BUFFER_BIT);
-  picture_.show(platform_->framebuffer(), part, bench_.film, {&reference_.texture(), bench_.comparison, bench_.wipe});
+  picture_.show(platform_->framebuffer(), part, bench_.film,
+                {&reference_.texture(), bench_.comparison, bench_.wipe,
+                 bench_.countSamples && bench_.showSamples ? bench_.mostSamples : 0.0f});
   gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
   interface_.draw();
+  gl_.check("drawing the window");
 }
 
 void Viewer::command(const ScriptStep& step) {

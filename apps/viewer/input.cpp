@@ -6,6 +6,7 @@
 
 #include "apps/viewer/frame_loop.hpp"
 #include "apps/viewer/model/command_line.hpp"
+#include "apps/viewer/model/map_camera.hpp"
 #include "apps/viewer/panels/panels.hpp"
 
 namespace welkin::viewer {
@@ -34,7 +35,9 @@ void Viewer::handle(const Event& event) {
       {
         Camera camera = bench_.document.scene().camera;
         bench_.navigation.stop();
-        if (interface_.modifiers().ctrl)
+        if (bench_.mapShown)
+          zoomMap(camera, event.y);
+        else if (interface_.modifiers().ctrl)
           bench_.navigation.zoom(camera, event.y);
         else
           bench_.navigation.dolly(camera, event.y);
@@ -45,7 +48,10 @@ void Viewer::handle(const Event& event) {
       if (event.down) pressed(event.key);
       break;
     case EventKind::drop:
-      openSky(event.text, {event.text, event.text});
+      if (event.text.ends_with(".tif") || event.text.ends_with(".tiff"))
+        openMap(event.text);
+      else
+        openSky(event.text, {event.text, event.text});
       break;
     case EventKind::resize:
       // A script's wish; the window answers with a resize event of its own.
@@ -125,6 +131,9 @@ void Viewer::perform(Action action, const std::string& argument) {
         saveSky(document.origin().file);
       break;
     case Action::copyCommand:
+      for (std::size_t i = 0; i < document.scene().layers.size(); ++i)
+        if (document.unsavedWeather(i))
+          return bench_.complain("The painted weather is in no file yet: save the sky first.");
       platform_->setClipboard(commandLine(document.scene(), document.savedScene(), document.origin().name));
       bench_.say("The command that renders this picture is on the clipboard.");
       break;
@@ -147,6 +156,7 @@ void Viewer::perform(Action action, const std::string& argument) {
       bench_.playing = !bench_.playing;
       break;
     case Action::trace:
+      if (bench_.mapShown) return bench_.complain("The path tracer knows nothing of maps: leave the map view first.");
       bench_.referenceWanted = !bench_.referenceWanted;
       if (bench_.referenceWanted) bench_.say("The path tracer begins when the picture has come to rest.");
       break;
@@ -171,6 +181,9 @@ void Viewer::perform(Action action, const std::string& argument) {
     case Action::homeView:
       bench_.navigation.travel(document.scene().camera, document.savedScene().camera);
       break;
+    case Action::mapView:
+      showMap(!bench_.mapShown);
+      break;
     case Action::panels:
       bench_.panels = !bench_.panels;
       break;
@@ -186,9 +199,11 @@ void Viewer::perform(Action action, const std::string& argument) {
     case Action::parameters:
     case Action::sun:
     case Action::wind:
+    case Action::weather:
     case Action::camera:
     case Action::film:
     case Action::pace:
+    case Action::inspect:
     case Action::reference:
       bench_.panels = true;
       bench_.wantedTab = tabOf(action);
@@ -226,7 +241,10 @@ void Viewer::move(double seconds) {
   }
   if (thrust.any()) {
     bench_.navigation.stop();
-    bench_.navigation.fly(camera, thrust, seconds);
+    if (bench_.mapShown)
+      steerMap(camera, thrust, seconds);
+    else
+      bench_.navigation.fly(camera, thrust, seconds);
     lively_ = 3;
   }
   bench_.navigation.advance(camera, seconds);
@@ -245,6 +263,7 @@ void Viewer::dragView(const glm::vec2& by) {
     return;
   }
   bench_.navigation.stop();
+  if (bench_.mapShown) return dragMap(drag);
   switch (*dragging_) {
     case MouseButton::left:
       bench_.navigation.turn(camera, drag);

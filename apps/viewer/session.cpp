@@ -1,14 +1,16 @@
 // The sky of the document: from and to files, into the picture, and beside its reference.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "apps/viewer/frame_loop.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/base/tone.hpp"
-#include "welkin/io/file.hpp"
+#include "welkin/io/png.hpp"
 #include "welkin/io/sky_file.hpp"
+#include "welkin/scene/animation.hpp"
 #include "welkin/scene/sections.hpp"
 
 namespace welkin::viewer {
@@ -24,14 +26,30 @@ Scene lightOf(Scene scene) {
   return scene;
 }
 
-// What the files depend on that a scene names.
-std::string filesOf(const Scene& scene) {
+// What the volumes depend on that a scene names.
+std::string gridsOf(const Scene& scene) {
   std::string files;
-  for (const Layer& layer : scene.layers)
-    files += fmt::format("{}|{}|{}|", layer.weather.map, layer.weather.precipitation, layer.weather.type);
   for (const GridCloud& grid : scene.grids)
     for (const Field& f : fieldsOf<GridCloud>()) files += formatValue(f, f.get(&grid)) + "|";
   return files;
+}
+
+// Where the weather that was painted for a layer of a sky goes: beside the sky's file, under the first number that
+// nobody else's picture has.
+std::string weatherFileOf(const std::string& sky, const Document& document, std::size_t layer) {
+  const std::filesystem::path path(sky);
+  std::string stem = path.filename().string();
+  for (const std::string_view ending : {".toml", ".sky"})
+    if (stem.ends_with(ending)) stem.resize(stem.size() - ending.size());
+  const std::vector<Layer>& layers = document.scene().layers;
+  for (std::size_t number = layer;; ++number) {
+    std::string file = (path.parent_path() / fmt::format("{}.weather{}.png", stem, number)).string();
+    const bool shown = std::any_of(layers.begin(), layers.end(), [&](const Layer& l) {
+      return l.weather.map == file && !document.unsavedWeather(static_cast<std::size_t>(&l - layers.data()));
+    });
+    std::error_code none;
+    if (!shown && (document.knowsFile(file) || !std::filesystem::exists(file, none))) return file;
+  }
 }
 
 }  // namespace
@@ -39,8 +57,8 @@ std::string filesOf(const Scene& scene) {
 void Viewer::openSky(const std::string& path, const Origin& origin) {
   try {
     Scene scene = loadSky(path);
-    realtime::CustomTextures textures = options_.loadTextures(scene);  // before anything is given up for it
-    if (bench_.keepCamera) scene.camera = bench_.document.scene().camera;
+    options_.loadTextures(scene);  // before anything is given up for it
+    if (bench_.keepCamera || bench_.mapShown) scene.camera = bench_.document.scene().camera;
     bench_.document.open(std::move(scene), origin);
     takeScene();
     picture_.cut();
@@ -55,8 +73,16 @@ void Viewer::openSky(const std::string& path, const Origin& origin) {
 void Viewer::saveSky(const std::string& path) {
   if (path.empty()) return bench_.complain("This sky has no file yet: save it under a name.");
   try {
-    writeFileAtomically(path, writeSky(bench_.document.scene()));
-    bench_.document.saved(path);
+    Document& document = bench_.document;
+    for (std::size_t i = 0; i < document.scene().layers.size(); ++i) {
+      if (!document.unsavedWeather(i)) continue;
+      const std::string file = weatherFileOf(path, document, i);
+      const WeatherPicture& picture = *document.weatherPicture(i);
+      savePng16(file, picture.width(), picture.height(), WeatherPicture::kChannels, picture.samples());
+      document.wroteWeather(i, file);
+    }
+    welkin::saveSky(document.scene(), path);
+    document.saved(path);
     bench_.say("Saved " + path);
   } catch (const Error& e) {
     bench_.complain(e.what());
@@ -74,6 +100,7 @@ void Viewer::savePicture(const std::string& path) {
 
 // Unsaved changes are asked about, but not by a script.
 void Viewer::leave() {
+  if (script_ && script_->playsRandomly()) return;
   if (script_ || !bench_.document.modified())
     running_ = false;
   else
@@ -88,21 +115,79 @@ void Viewer::entitle() {
   platform_->setTitle(fmt::format("{}{} – Welkin", bench_.document.modified() ? "*" : "", name));
 }
 
+// Reads the files that the scene names anew, and takes over what has been painted. Returns whether anything has
+// changed.
+bool Viewer::takeTextures(const Scene& scene) {
+  Document& document = bench_.document;
+  const std::size_t layers = scene.layers.size();
+  std::vector<std::string> maps(layers);
+  std::vector<Document::WeatherPicturePointer> pictures(layers);
+  Scene files = scene;  // what has to be read
+  for (std::size_t i = 0; i < layers; ++i) {
+    maps[i] = scene.layers[i].weather.map;
+    pictures[i] = document.weatherPicture(maps[i]);
+    if (pictures[i]) files.layers[i].weather.map.clear();
+  }
+  std::string grids = gridsOf(scene);
+  const bool sameGrids = grids == gridsOf_;
+  if (sameGrids && maps == mapsOf_ && pictures == picturesOf_) return false;
+  if (sameGrids) files.grids.clear();
+  realtime::CustomTextures textures = options_.loadTextures(files);
+  if (sameGrids) textures.grids = std::move(textures_.grids);
+  const bool any = std::any_of(maps.begin(), maps.end(), [](const std::string& map) { return !map.empty(); });
+  textures.weatherMaps.resize(any ? layers : 0);
+  for (std::size_t i = 0; any && i < layers; ++i) {
+    Volume& map = textures.weatherMaps[i];
+    if (pictures[i])
+      map = pictures[i]->volume();
+    else if (!map.texels.empty() && std::max(map.width, map.height) <= WeatherPicture::kLargest)
+      document.keepWeather(maps[i], pictures[i] = std::make_shared<WeatherPicture>(map));
+  }
+  textures_ = std::move(textures);
+  gridsOf_ = std::move(grids);
+  mapsOf_ = std::move(maps);
+  picturesOf_ = std::move(pictures);
+  ++bench_.texturesNumber;
+  return true;
+}
+
+// The sky of the moment: what keyframes set has its value. Camera, film and time of the document count.
+const Scene& Viewer::shown() const { return keyed_ ? *keyed_ : bench_.document.scene(); }
+
+// An aircraft flies in the sky as it stands.
+void Viewer::playKeyframes() {
+  Document& document = bench_.document;
+  const Scene& scene = document.scene();
+  if (scene.keyframes.empty() || flight_) {
+    keyed_.reset();
+    return;
+  }
+  keyed_ = sceneAt(scene, static_cast<double>(scene.time));
+  const bool moved = takenTime_ != scene.time;
+  takenTime_ = scene.time;
+  if (moved && !bench_.mapShown && bench_.cameraByKeyframes && hasKeyframes(scene, "camera."))
+    document.moveCamera(keyed_->camera);
+}
+
 void Viewer::takeScene() {
-  if (bench_.document.revision() == revision_) return;
+  const Scene& own = bench_.document.scene();
+  if (bench_.document.revision() == revision_ && (own.keyframes.empty() || own.time == takenTime_)) return;
   revision_ = bench_.document.revision();
-  const Scene& scene = bench_.document.scene();
-  Scene light = lightOf(scene);
-  if (drawn_ && sameScene(light, *drawn_)) return;
   try {
-    const std::string files = filesOf(scene);
-    if (files != texturesOf_) textures_ = options_.loadTextures(scene);
-    texturesOf_ = files;
+    playKeyframes();
+  } catch (const Error& e) {
+    bench_.complain(e.what());
+  }
+  const Scene& scene = shown();
+  Scene light = lightOf(scene);
+  try {
+    if (!takeTextures(scene) && drawn_ && sameScene(light, *drawn_)) return;
     picture_.setScene(scene, textures_);
     if (flight_) {
       flight_->setScene(scene, textures_.weatherMaps, textures_.grids);
       scenery_->setScene(scene);
     }
+    if (ground_) ground_->setSurroundings(scene.ground.albedo);
     drawn_ = std::move(light);
   } catch (const Error& e) {
     bench_.complain(e.what());
@@ -119,7 +204,8 @@ void Viewer::tendReference() {
   const bool rests = atRest();
   if (reference_.running() && (!rests || !bench_.referenceWanted)) reference_.stop();
   if (!reference_.running() && rests && bench_.referenceWanted) {
-    Scene scene = bench_.document.scene();
+    Scene scene = shown();
+    scene.camera = bench_.document.scene().camera;
     scene.film = bench_.film;
     scene.film.exposure = ExposureMode::manual;
     reference_.start(scene, textures_, picture_.read());
@@ -129,7 +215,7 @@ void Viewer::tendReference() {
 
 // Automatic exposure follows the picture as an eye does, within a second.
 void Viewer::expose(double seconds) {
-  bench_.film = bench_.document.scene().film;
+  bench_.film = shown().film;
   if (bench_.film.exposure != ExposureMode::automatic) {
     metered_ = adapting_ = false;
     return;

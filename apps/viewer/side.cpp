@@ -18,9 +18,11 @@ constexpr TabInfo kTabs[] = {{Tab::gallery, Action::gallery, "Gallery", drawGall
                              {Tab::parameters, Action::parameters, "Sky", drawParameters},
                              {Tab::sun, Action::sun, "Sun", drawSun},
                              {Tab::wind, Action::wind, "Wind", drawWind},
+                             {Tab::weather, Action::weather, "Weather", drawWeather},
                              {Tab::camera, Action::camera, "Camera", drawCamera},
                              {Tab::film, Action::film, "Film", drawFilm},
                              {Tab::pace, Action::pace, "Pace", drawPace},
+                             {Tab::inspect, Action::inspect, "Inspect", drawInspect},
                              {Tab::reference, Action::reference, "Trace", drawReference}};
 
 }  // namespace
@@ -60,13 +62,18 @@ void Viewer::drawTabs() {
   for (const TabInfo& info : kTabs) {
     // The aircraft is the camera, and the reference knows nothing of it.
     if (flight_ && (info.tab == Tab::camera || info.tab == Tab::reference)) continue;
+    if (bench_.mapShown && info.tab == Tab::reference) continue;
     const bool wanted = bench_.wantedTab == info.tab;
     const bool shown =
         ImGui::BeginTabItem(info.title, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);
     interface_.items.mark(std::string("tab ") + info.title);
     if (!shown) continue;
-    bench_.tab = info.tab;
-    info.draw(bench_);
+    // A tab that is asked for is there in the next frame; what stands in its place, the gallery at first, would begin
+    // its work in vain.
+    if (!bench_.wantedTab || wanted) {
+      bench_.tab = info.tab;
+      info.draw(bench_);
+    }
     ImGui::EndTabItem();
   }
   ImGui::EndTabBar();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/viewer/flight/flight.hpp"
+#include "apps/viewer/model/map_picture.hpp"
 #include "welkin/base/image.hpp"
 #include "welkin/realtime/renderer.hpp"
 #include "welkin/scene/scene.hpp"
@@ -36,6 +37,10 @@ struct ViewerOptions {
   std::string script;      // a file of input; empty for none
   std::string screenshot;  // a PNG of the window at the script's end, or of the first picture at rest; empty for none
   std::optional<FlyOptions> fly{};
+  bool showMap = false;             // from above at first
+  std::optional<MapPicture> map{};  // none: a map of our own land
+  // The map in a file. Throws Error.
+  std::function<MapPicture(const std::string& path)> loadMap;
   std::vector<PresetFile> presets;
   // Pictures and volumes that a scene names. Throws Error (badInput).
   std::function<realtime::CustomTextures(const Scene&)> loadTextures;

@@ -118,7 +118,7 @@ CloudStatistics summary(const std::vector<CloudColumn>& columns, double threshol
 
 }  // namespace
 
-DensityField densityField(const Scene& scene) {
+DensityField densityField(const Scene& scene, DensityTextures textures) {
   const std::vector<Volume> maps = weatherMaps(scene);
   const std::vector<PlacedGrid> grids = loadGrids(scene);
   return DensityField({.layers = scene.layers,
@@ -129,7 +129,8 @@ DensityField densityField(const Scene& scene) {
                        .grids = grids,
                        .classical = scene.classical,
                        .heroes = scene.heroes,
-                       .weatherMaps = maps});
+                       .weatherMaps = maps},
+                      std::move(textures));
 }
 
 SkyStatistics measureSky(const Scene& scene) {

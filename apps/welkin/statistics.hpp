@@ -30,7 +30,8 @@ struct SkyStatistics {
 // line; a picture, what it covers.
 SkyStatistics measureSky(const Scene& scene);
 
-// The scene's clouds with the pictures that it names. Throws Error (badInput) for a picture that cannot be read.
-DensityField densityField(const Scene& scene);
+// The scene's clouds with the pictures that it names; `textures` as of DensityField. Throws Error (badInput) for a
+// picture that cannot be read.
+DensityField densityField(const Scene& scene, DensityTextures textures = {});
 
 }  // namespace welkin::app

@@ -12,6 +12,7 @@
 #include "welkin/base/error.hpp"
 #include "welkin/io/file.hpp"
 #include "welkin/io/usd_volume.hpp"
+#include "welkin/scene/animation.hpp"
 
 namespace welkin::app {
 
@@ -39,8 +40,8 @@ struct Frames {
 };
 
 struct Job {
-  Scene scene;
-  std::string sky;  // what it is called
+  Scene animated, scene;  // with keyframes; at the time that the sky says
+  std::string sky;        // what it is called
   std::optional<VolumeTarget> target;
   VolumeConvention convention;
   Region region;
@@ -98,7 +99,8 @@ void choose(T& value, const std::string& text, const std::pair<const char*, T> (
 
 Job jobOf(const VdbArguments& a) {
   Job job;
-  job.scene = a.sky.scene();
+  job.animated = a.sky.animated();
+  job.scene = sceneAt(job.animated, static_cast<double>(job.animated.time));
   job.sky = a.sky.sky.empty() ? "default" : std::filesystem::path(a.sky.sky).filename().string();
   job.target = volumeTargetNamed(a.target);
   if (job.target) job.convention = conventionFor(*job.target);
@@ -202,6 +204,12 @@ nlohmann::ordered_json summary(const Job& job, const std::vector<std::string>& f
           {"sheets_left_out", job.scene.sheets.size()}};
 }
 
+// The noise textures, where no keyframe changes them.
+DensityTextures lastingNoise(const Job& job) {
+  if (hasKeyframes(job.animated, "noise.") || hasKeyframes(job.animated, "layer.0.profile.billow_mix")) return {};
+  return bakeDensityTextures({.layers = job.scene.layers, .noise = job.scene.noise, .heroes = job.scene.heroes}, {});
+}
+
 void write(const VdbArguments& arguments) {
   const Job job = jobOf(arguments);
   DensityField field = densityField(job.scene);
@@ -210,11 +218,17 @@ void write(const VdbArguments& arguments) {
   ProgressDisplay display("baking", arguments.quiet ? ProgressStyle::quiet : ProgressStyle::automatic);
   const Progress progress = display.callback();
   const double steps = static_cast<double>(job.tiles.size()) * (job.frames.last - job.frames.first + 1);
+  const bool keyed = job.frames.sequence && !job.animated.keyframes.empty();
+  const DensityTextures noise = keyed ? lastingNoise(job) : DensityTextures{};
   double done = 0.0, written = 0.0, empty = 0.0;
   std::vector<std::string> files;
   for (int frame = job.frames.first; frame <= job.frames.last; ++frame) {
     const double time = job.scene.time + (job.frames.sequence ? frame / job.fps : 0.0);
-    field.setDrift({job.scene.wind.speed, job.scene.wind.from, time});
+    // Values stay in the unit of the sky at its own time: what thins out gets smaller.
+    if (keyed)
+      field = densityField(sceneAt(job.animated, time), noise);
+    else
+      field.setDrift({job.scene.wind.speed, job.scene.wind.from, time});
     for (std::size_t tile = 0; tile < job.tiles.size(); ++tile, done += 1.0) {
       const VoxelGrid grid = bakeVoxels(field, boxOf(job.tiles[tile], job.voxel, job.convention), baking,
                                         stageOf(progress, done / steps, (done + 0.9) / steps));

@@ -17,7 +17,6 @@
 #include "integrations/python/calls.hpp"
 #include "integrations/python/values.hpp"
 #include "welkin/base/error.hpp"
-#include "welkin/io/file.hpp"
 #include "welkin/io/grids.hpp"
 #include "welkin/io/sky_file.hpp"
 #include "welkin/scene/features.hpp"
@@ -304,10 +303,7 @@ PYBIND11_MODULE(_welkin, module) {
       .def(
           "text", [](const Sky& s) { return writeSky(s.scene); }, "The sky as a sky file writes it.")
       .def(
-          "save",
-          [](const Sky& s, const std::filesystem::path& path) {
-            writeFileAtomically(path.string(), writeSky(s.scene));
-          },
+          "save", [](const Sky& s, const std::filesystem::path& path) { saveSky(s.scene, path.string()); },
           py::arg("path"), "Writes a sky file.")
       .def(
           "render", &render, py::arg("width") = 640, py::arg("height") = 360, py::arg("frames") = 0,

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/apps/command.hpp"
+#include "welkin/base/error.hpp"
 #include "welkin/io/nanovdb.hpp"
 #include "welkin/io/vdb.hpp"
 
@@ -109,6 +110,18 @@ TEST_F(VdbCommand, SequencesMove) {
   EXPECT_GT(cloud, 1000);
   EXPECT_GT(changed, cloud / 2);
   EXPECT_NE(test::slurp(path("flow.usda")).find("4: @./flow.0004.vdb@"), std::string::npos);
+}
+
+TEST_F(VdbCommand, SequencesFollowKeyframes) {
+  std::ofstream(path("growing.sky.toml"))
+      << "format = 1\n[[layer]]\n[[keyframe]]\ntime = 0\nlayer.weather.coverage = 0\n"
+         "[[keyframe]]\ntime = 10\nlayer.weather.coverage = 1\n";
+  const test::Outcome o = test::run("vdb " + path("growing.sky.toml") +
+                                    " -q --set noise.profile.base_size=32 --region -2000,-2000,2000,2000 --voxel 100 " +
+                                    "--frames 0-1 --fps 0.1 -o " + path("growing.vdb"));
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_THROW(loadVdb(path("growing.0000.vdb")), Error);  // it is empty
+  EXPECT_GT(loadVdb(path("growing.0001.vdb")).voxels.maximum(), 0.5f);
 }
 
 TEST_F(VdbCommand, TellsWhatToTypeThere) {

@@ -256,6 +256,16 @@ TEST(SkyFile, FindsPicturesBesideTheFile) {
   savePng((folder / "map.png").string(), 1, 1, 1, grey);
   writeFileAtomically((folder / "b.sky.toml").string(), "format = 1\n[[layer]]\n[layer.weather]\nmap = \"map.png\"\n");
   EXPECT_EQ(loadSky((folder / "b.sky.toml").string()).layers[0].weather.map, (folder / "map.png").string());
+  // And saved from where they are, wherever to.
+  std::filesystem::create_directories(folder / "skies");
+  Scene scene = loadSky((folder / "b.sky.toml").string());
+  scene.keyframes = {{.time = 1.0, .values = {{"layer.0.weather.map", (folder / "map.png").string()}}}};
+  const std::string saved = (folder / "skies" / "c.sky.toml").string();
+  saveSky(scene, saved);
+  EXPECT_NE(readFile(saved, 1 << 20).find("map = \"../map.png\""), std::string::npos);
+  EXPECT_TRUE(std::filesystem::equivalent(loadSky(saved).layers[0].weather.map, folder / "map.png"));
+  EXPECT_TRUE(std::filesystem::equivalent(std::get<std::string>(loadSky(saved).keyframes[0].values[0].value),
+                                          folder / "map.png"));
   std::filesystem::remove_all(folder);
 }
 

@@ -104,6 +104,7 @@ TEST(SimpleFields, AllExist) {
   Scene scene;
   scene.sheets.emplace_back();
   scene.grids.emplace_back();
+  scene.heroes.emplace_back();
   std::size_t simple = 0;
   std::set<std::string> seen;
   for (const Section& section : sectionsOf(scene))

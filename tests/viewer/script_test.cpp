@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <sstream>
+
 #include "welkin/base/error.hpp"
 
 namespace welkin::viewer {
@@ -108,6 +111,29 @@ TEST(Script, SettlingWaitsUntilThePictureRestsAndNotForEver) {
         for (int i = 0; i < 5000; ++i) endless.next(kNothing, false);
       },
       Error);
+}
+
+TEST(Script, RandomHandsDoTheSameAgainAndLetGo) {
+  const std::vector<std::string> once = play("random 600 7\nkey a\n"), again = play("random 600 7\nkey a\n");
+  EXPECT_EQ(once, again);
+  EXPECT_NE(once, play("random 600 8\nkey a\n"));
+  ASSERT_EQ(once.size(), 603u);  // they let go, and a key is two frames
+  std::multiset<std::string> down;
+  bool presses = false, drags = false;
+  for (const std::string& line : once) {
+    std::istringstream words(line);
+    for (std::string word; words >> word;) {
+      if (word == "text") break;
+      if (word[0] == '+') down.insert(word.substr(1));
+      if (word[0] == '-') down.erase(word.substr(1));
+    }
+    presses |= line.find('+') != std::string::npos;
+    drags |= line == "press";
+  }
+  EXPECT_TRUE(down.empty());
+  EXPECT_TRUE(presses && drags);
+  EXPECT_NE(refusalOf("random 10\n"), "");
+  EXPECT_NE(refusalOf("random 0 1\n"), "");
 }
 
 TEST(Chords, HaveNamesThatReadBack) {

@@ -402,4 +402,23 @@ std::string writeSky(const Scene& original) {
   return out + writeKeyframes(scene);
 }
 
+void saveSky(const Scene& scene, const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal().parent_path();
+  const auto nameFrom = [&](const Field& field, FieldValue value) {
+    auto* file = std::get_if<std::string>(&value);
+    if (field.kind == FieldKind::file && file && !file->empty())
+      *file = std::filesystem::absolute(*file).lexically_normal().lexically_proximate(folder).generic_string();
+    return value;
+  };
+  Scene named = scene;
+  const std::vector<Section> sections = sectionsOf(named);
+  for (const Section& section : sections)
+    for (const Field& f : section.fields)
+      if (f.kind == FieldKind::file) f.set(section.object, nameFrom(f, f.get(section.object)));
+  for (Keyframe& keyframe : named.keyframes)
+    for (KeyValue& v : keyframe.values)
+      if (const Parameter p = findParameter(sections, v.path); p.field) v.value = nameFrom(*p.field, v.value);
+  writeFileAtomically(path, writeSky(named));
+}
+
 }  // namespace welkin

@@ -26,6 +26,9 @@ std::vector<Keyframe> loadKeyframes(const std::string& path, const Scene& scene)
 // Throws Error (badInput) for more of anything than a sky may have, and for keyframes of what it has not.
 std::string writeSky(const Scene& scene);
 
+// Writes it to a file, whose folder the files that it names are named from. Throws as writeSky, and Error (failed).
+void saveSky(const Scene& scene, const std::string& path);
+
 // The version of toml++ that Welkin was built with.
 std::string tomlVersion();
 

@@ -857,6 +857,7 @@ Outputs Renderer::outputs(const View& view) const {
   o.cloudsFactor = 1.0f / v.exposure;
   o.cloudDepth = nameOf(v.marchedDepth);
   o.cloudDepthFactor = v.host.depthUnit;
+  if (v.samples) o.samples = nameOf(v.samples);
   if (v.last) {
     o.cloudsFactor = 1.0f / v.last->wind.w;
     o.cloudDepthOffset = glm::vec2(v.last->offset);

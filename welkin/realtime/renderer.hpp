@@ -119,6 +119,8 @@ struct Outputs {
   // The history goes with turns of the camera, by part of one of its pixels: what the target shows at uv stands at
   // uv - historyShift of both.
   glm::vec2 historyShift{0.0f};
+  // R32F, nearest, texels as cloudDepth: density samples that the march has taken. None unless samples are counted.
+  TextureName samples;
   // R16F, 3D: optical depth of the clouds toward the sun, in nested squares round the eye: the clouds' shadow map. None
   // without quality.lightVolume and with lighting.model nubis.
   TextureName sunDepth;

@@ -1,5 +1,7 @@
 #include "apps/viewer/model/document.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace welkin::viewer {
@@ -41,7 +43,7 @@ std::string Document::set(const std::string& section, std::string_view field, co
     if (sameScene(before, scene_)) return "";
     std::string name = section;
     if (!name.empty()) name += '.';
-    push({name.append(field), std::move(before), origin_, section == "camera"});
+    push({name.append(field), std::move(before), pictures_, origin_, section == "camera"});
     return "";
   }
   return "is not a parameter of this sky";
@@ -52,7 +54,7 @@ void Document::edit(const std::string& what, const std::function<void(Scene&)>& 
   change(scene_);
   if (sameScene(before, scene_)) return;
   const bool camera = !sameFields(before.camera, scene_.camera);
-  push({what, std::move(before), origin_, camera});
+  push({what, std::move(before), pictures_, origin_, camera});
 }
 
 void Document::resetSection(const std::string& section) {
@@ -72,6 +74,7 @@ void Document::exchange(Step& step) {
   const Camera camera = scene_.camera;
   const float time = scene_.time;
   std::swap(scene_, step.before);
+  std::swap(pictures_, step.pictures);
   std::swap(origin_, step.origin);
   if (step.saved) std::swap(saved_, *step.saved);
   if (!step.camera) {
@@ -101,7 +104,8 @@ bool Document::redo() {
 void Document::open(Scene scene, Origin origin) {
   endGesture();
   const std::string name = !origin.name.empty() ? origin.name : scene.title;
-  push({"open " + name, scene_, origin_, true, saved_});
+  push({"open " + name, scene_, pictures_, origin_, true, saved_});
+  pictures_.clear();
   scene_ = std::move(scene);
   saved_ = scene_;
   origin_ = std::move(origin);
@@ -113,7 +117,46 @@ void Document::saved(const std::string& file) {
   ++revision_;
 }
 
+Document::WeatherPicturePointer Document::weatherPicture(std::size_t layer) const {
+  return layer < scene_.layers.size() ? weatherPicture(scene_.layers[layer].weather.map) : nullptr;
+}
+
+Document::WeatherPicturePointer Document::weatherPicture(const std::string& map) const {
+  const auto found = pictures_.find(map);
+  return found == pictures_.end() ? nullptr : found->second;
+}
+
+void Document::keepWeather(const std::string& map, WeatherPicturePointer picture) {
+  pictures_[map] = inFiles_[map] = std::move(picture);
+}
+
+void Document::paintWeather(std::size_t layer, WeatherPicturePointer picture) {
+  std::string& map = scene_.layers[layer].weather.map;
+  Step step{fmt::format("paint weather {}", layer), scene_, pictures_, origin_};
+  if (map.empty() || knowsFile(map) || !pictures_.contains(map)) map = fmt::format("(painted {})", ++painted_);
+  pictures_[map] = std::move(picture);
+  push(std::move(step));
+}
+
+bool Document::unsavedWeather(std::size_t layer) const {
+  const WeatherPicturePointer picture = weatherPicture(layer);
+  if (!picture) return false;
+  const auto file = inFiles_.find(scene_.layers[layer].weather.map);
+  return file == inFiles_.end() || file->second != picture;
+}
+
+void Document::wroteWeather(std::size_t layer, const std::string& file) {
+  const WeatherPicturePointer picture = weatherPicture(layer);
+  const std::string map = scene_.layers[layer].weather.map;
+  for (Layer& l : scene_.layers)
+    if (l.weather.map == map) l.weather.map = file;
+  keepWeather(file, picture);
+  ++revision_;
+}
+
 bool Document::modified() const {
+  for (std::size_t i = 0; i < scene_.layers.size(); ++i)
+    if (unsavedWeather(i)) return true;
   Scene now = scene_;
   now.camera = saved_.camera;
   now.time = saved_.time;

@@ -1,11 +1,14 @@
 #pragma once
 // The sky that is being looked at, the file that it came from, and the way back.
 #include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/viewer/model/weather_picture.hpp"
 #include "welkin/scene/scene.hpp"
 #include "welkin/scene/sections.hpp"
 
@@ -39,6 +42,23 @@ class Document {
   // Puts the section's fields back to their defaults; a quality keeps its preset's values.
   void resetSection(const std::string& section);
 
+  // The picture that a layer's weather.map names: as painted, or as its file was when it was read for this sky. Null
+  // where the layer names none, or the file has not been kept.
+  using WeatherPicturePointer = std::shared_ptr<const WeatherPicture>;
+  WeatherPicturePointer weatherPicture(std::size_t layer) const;
+  WeatherPicturePointer weatherPicture(const std::string& map) const;
+  // What the file of a map holds; no step.
+  void keepWeather(const std::string& map, WeatherPicturePointer picture);
+  // Gives a layer another picture; part of a gesture or a step. Files stay as they are: the picture has a name of its
+  // own until the sky is saved.
+  void paintWeather(std::size_t layer, WeatherPicturePointer picture);
+  // Whether the layer's picture is other than what the file of its name holds, if there is one.
+  bool unsavedWeather(std::size_t layer) const;
+  // Whether the map's file was read or written here.
+  bool knowsFile(const std::string& map) const { return inFiles_.contains(map); }
+  // A layer's picture has been written to a file, whose name the layers that show it take on; no step.
+  void wroteWeather(std::size_t layer, const std::string& file);
+
   // No steps.
   void moveCamera(const Camera& camera) { scene_.camera = camera; }
   void moveTime(float seconds) { scene_.time = seconds; }
@@ -63,9 +83,11 @@ class Document {
   bool modified() const;
 
  private:
+  using Pictures = std::map<std::string, WeatherPicturePointer>;  // by what weather.map says
   struct Step {
     std::string what;
     Scene before;
+    Pictures pictures;
     Origin origin;
     bool camera = false;           // whether the step is about the camera too
     std::optional<Scene> saved{};  // of a step that opened another sky
@@ -74,6 +96,8 @@ class Document {
   void exchange(Step& step);
 
   Scene scene_, saved_;
+  Pictures pictures_, inFiles_;  // inFiles_: as they were read or written last
+  int painted_ = 0;              // names given to unsaved pictures
   Origin origin_;
   std::vector<Step> undo_, redo_;
   bool gesture_ = false, inGesture_ = false;  // inGesture_: the last step belongs to the gesture

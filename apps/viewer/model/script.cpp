@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <glm/common.hpp>
 
 #include "welkin/base/error.hpp"
@@ -40,6 +41,7 @@ constexpr std::array kVerbs{Verb{"size", "size WIDTH HEIGHT", 2, 2},
                             Verb{"do", "do ACTION [ARGUMENT]", 1, 2, true},
                             Verb{"fly", "fly FRAMES [NAME=VALUE ...], for example fly 120 throttle=1 pitch=0.2", 1, 8},
                             Verb{"rate", "rate FRAMES_A_SECOND, from 0 to 1000", 1, 1},
+                            Verb{"random", "random FRAMES SEED [FOLDER]", 2, 3, true},
                             Verb{"quit", "quit", 0, 0}};
 
 [[noreturn]] void refuse(const std::string& name, int line, const std::string& what) {
@@ -106,10 +108,19 @@ std::string wrongWith(const ScriptStep& step, const Verb& verb) {
     if (!rate || *rate < 0.0f || *rate > 1000.0f) return usage;
   }
   if ((verb.name == "frames" || verb.name == "fly") && !countOf(w[0], 100000)) return usage;
+  if (verb.name == "random" && (!countOf(w[0], 10000000) || !countOf(w[1], 1 << 30))) return usage;
   if ((verb.name == "key" || verb.name == "hold") && chordNamed(w[0]).key == Key::none)
     return fmt::format("'{}' is not a key: write for example a, f5, pageup, ctrl+shift+z", w[0]);
   if (verb.name == "hold" && !countOf(w[1], 100000)) return usage;
   return "";
+}
+
+std::vector<std::string> filesIn(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 Event mouseEvent(EventKind kind, const glm::vec2& at) { return {.kind = kind, .x = at.x, .y = at.y}; }
@@ -243,6 +254,10 @@ bool ScriptPlayer::expand(const ScriptStep& step, const FindItem& find, bool set
   } else if (verb == "fly") {
     queue_.push_back({{}, step, false});
     for (int i = *countOf(words[0], 100000); i > 1; --i) queue_.emplace_back();
+  } else if (verb == "random") {
+    hands_.emplace(static_cast<std::uint32_t>(*countOf(words[1], 1 << 30)),
+                   words.size() > 2 ? filesIn(words[2]) : std::vector<std::string>{});
+    handsFrames_ = *countOf(words[0], 10000000);
   } else if (verb == "quit") {
     queue_.push_back({{Event{.kind = EventKind::quit}}, {}, false});
   } else {
@@ -253,6 +268,12 @@ bool ScriptPlayer::expand(const ScriptStep& step, const FindItem& find, bool set
 
 ScriptPlayer::Frame ScriptPlayer::next(const FindItem& find, bool settled) {
   while (queue_.empty()) {
+    if (hands_ && handsFrames_-- > 0) return {hands_->next(), {}, false};
+    if (hands_) {
+      queue_.push_back({hands_->release(), {}, false});
+      hands_.reset();
+      break;
+    }
     if (at_ >= script_.steps.size()) return {{}, {}, true};
     if (!expand(script_.steps[at_], find, settled)) {
       ++waited_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/viewer/model/event.hpp"
+#include "apps/viewer/model/random_input.hpp"
 
 namespace welkin::viewer {
 
@@ -47,6 +48,9 @@ class ScriptPlayer {
   // appear within 120 frames, and when the picture does not settle within 2000.
   Frame next(const FindItem& find, bool settled);
 
+  // Whether hands do anything at present: then nothing that they do ends the script.
+  bool playsRandomly() const { return hands_.has_value(); }
+
   [[noreturn]] void fail(const ScriptStep& step, const std::string& what) const;
 
  private:
@@ -60,6 +64,8 @@ class ScriptPlayer {
   std::size_t at_ = 0;
   int waited_ = 0;  // frames at the present step
   std::deque<Frame> queue_;
+  std::optional<RandomHands> hands_;  // of the step "random"
+  int handsFrames_ = 0;               // of theirs to come
 };
 
 }  // namespace welkin::viewer

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/viewer/panels/panels.hpp"
+#include "welkin/scene/animation.hpp"
 
 namespace welkin::viewer {
 
@@ -78,7 +79,7 @@ bool drawText(std::string& value) {
   return ImGui::IsItemDeactivatedAfterEdit();
 }
 
-void tooltip(const Section& section, const Field& field, const std::string& name) {
+void tooltip(const Section& section, const Field& field, const std::string& name, bool keyed) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26.0f);
@@ -90,6 +91,7 @@ void tooltip(const Section& section, const Field& field, const std::string& name
       range = fmt::format(", {:g} to {:g}{}{}", field.hard.low, field.hard.high, *field.unit.symbol ? " " : "",
                           field.unit.symbol);
   ImGui::TextDisabled("%s%s", name.c_str(), range.c_str());
+  if (keyed) ImGui::TextDisabled("set by keyframes");
   ImGui::TextDisabled("default %s; now %s", formatValue(field, field.defaultValue).c_str(),
                       formatValue(field, field.get(section.object)).c_str());
   ImGui::EndTooltip();
@@ -135,12 +137,16 @@ void drawField(Workbench& bench, const Section& section, const Field& field) {
     ImGui::TextColored({0.72f, 0.86f, 1.0f, 1.0f}, "%s", spaced(field.name).c_str());
   else
     ImGui::TextUnformatted(spaced(field.name).c_str());
-  tooltip(section, field, name);
+  // What keyframes set is theirs.
+  const bool keyed = hasKeyframes(bench.document.scene(), name);
+  tooltip(section, field, name, keyed);
   ImGui::SameLine(label);
   ImGui::SetNextItemWidth(width - label - button - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::BeginDisabled(keyed);
   const bool edited = drawWidget(bench, name, field, value);
+  ImGui::EndDisabled();
   bench.interface.items.mark(name);
-  if (!ImGui::IsItemActive()) tooltip(section, field, name);
+  if (!ImGui::IsItemActive()) tooltip(section, field, name, keyed);
   // A drag is one step; so is whatever is typed into a slider.
   if (ImGui::IsItemActivated()) bench.document.beginGesture();
   const bool finished = ImGui::IsItemDeactivated();

@@ -23,6 +23,16 @@ void drawPasses(Workbench& bench) {
                 cost.mostSamples, cost.rays);
 }
 
+void drawSampleScale(Workbench& bench) {
+  ImGui::Checkbox("show them: blue few, red", &bench.showSamples);
+  bench.interface.items.mark("show samples");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1.0f);
+  ImGui::SliderFloat("##most", &bench.mostSamples, 8.0f, 1024.0f, "%.0f and more", ImGuiSliderFlags_Logarithmic);
+  bench.mostSamples = std::max(bench.mostSamples, 1.0f);
+  bench.interface.items.mark("most samples");
+}
+
 void drawHistory(const Workbench& bench) {
   std::array<float, Pace::kKept> times{};
   for (std::size_t i = 0; i < times.size(); ++i) times[i] = bench.pace.times[(bench.pace.next + i) % times.size()];
@@ -85,6 +95,7 @@ void drawPace(Workbench& bench) {
   if (ImGui::Checkbox("count density samples (slower)", &bench.countSamples))
     bench.picture.countSamples(bench.countSamples);
   bench.interface.items.mark("count samples");
+  if (bench.countSamples) drawSampleScale(bench);
   drawHistory(bench);
   drawPasses(bench);
   if (ImGui::CollapsingHeader("quality", ImGuiTreeNodeFlags_DefaultOpen)) drawSection(bench, "quality");

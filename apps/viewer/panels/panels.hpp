@@ -17,9 +17,13 @@ std::optional<Tab> tabOf(Action action);
 void drawGallery(Workbench& bench);
 void drawSun(Workbench& bench);
 void drawWind(Workbench& bench);
+// The weather of a layer from above, painted with a brush.
+void drawWeather(Workbench& bench);
 void drawCamera(Workbench& bench);
 void drawFilm(Workbench& bench);
 void drawPace(Workbench& bench);
+// Cuts through the clouds, and the noise textures.
+void drawInspect(Workbench& bench);
 void drawReference(Workbench& bench);
 // Every parameter, from the field tables.
 void drawParameters(Workbench& bench);

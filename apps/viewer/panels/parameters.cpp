@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 
 #include "apps/viewer/model/simple_fields.hpp"
 #include "apps/viewer/panels/panels.hpp"
@@ -59,6 +61,15 @@ void drawListButtons(Workbench& bench) {
   add("+ volume", "grid", scene.grids.size() < kMaxGrids, [](Scene& s) { s.grids.emplace_back(); });
   ImGui::SameLine();
   add("+ classical", "classical", scene.classical.size() < kMaxClassical, [](Scene& s) { s.classical.emplace_back(); });
+  ImGui::SameLine();
+  // Where it is seen at once: ahead of the camera.
+  add("+ hero", "hero", scene.heroes.size() < kMaxHeroes, [](Scene& s) {
+    Hero hero = heroPreset(HeroSpecies::congestus);
+    const double away = 3.0 * static_cast<double>(hero.form.height), heading = static_cast<double>(s.camera.heading);
+    hero.cloud.position +=
+        glm::dvec3(glm::dvec2(s.camera.position) + away * glm::dvec2(std::sin(heading), std::cos(heading)), 0.0);
+    s.heroes.push_back(hero);
+  });
 }
 
 template <class T>
@@ -66,11 +77,11 @@ void erase(std::vector<T>& list, std::size_t index) {
   if (index < list.size()) list.erase(list.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
-// "layer.1", "sheet.0", "grid.0", "classical.0" can be taken away. Returns whether one was.
+// "layer.1", "sheet.0", "grid.0", "classical.0", "hero.12" can be taken away. Returns whether one was.
 bool drawRemove(Workbench& bench, const std::string& path) {
   const std::string table = tableName(path);
-  if (table != "layer" && table != "sheet" && table != "grid" && table != "classical") return false;
-  const auto index = static_cast<std::size_t>(path.back() - '0');
+  if (table != "layer" && table != "sheet" && table != "grid" && table != "classical" && table != "hero") return false;
+  const auto index = static_cast<std::size_t>(std::atoi(path.c_str() + table.size() + 1));
   const bool pressed = ImGui::SmallButton("remove");
   bench.interface.items.mark("remove " + path);
   if (pressed)
@@ -79,6 +90,7 @@ bool drawRemove(Workbench& bench, const std::string& path) {
       if (table == "sheet") erase(s.sheets, index);
       if (table == "grid") erase(s.grids, index);
       if (table == "classical") erase(s.classical, index);
+      if (table == "hero") erase(s.heroes, index);
     });
   return pressed;
 }
@@ -143,8 +155,9 @@ void drawParameters(Workbench& bench) {
   // Clouds first: they are what one came for.
   for (const bool clouds : {true, false})
     for (const Section& section : bench.document.sections()) {
+      const std::string_view table = std::string_view(section.path).substr(0, section.path.find('.'));
       const bool isCloud =
-          section.path.starts_with("layer") || section.path.starts_with("sheet") || section.path.starts_with("grid");
+          table == "layer" || table == "sheet" || table == "grid" || table == "classical" || table == "hero";
       if (isCloud == clouds && !drawOne(bench, section)) {
         ImGui::EndChild();
         return;

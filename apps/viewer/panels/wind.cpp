@@ -7,6 +7,7 @@
 
 #include "apps/viewer/panels/dial.hpp"
 #include "apps/viewer/panels/panels.hpp"
+#include "welkin/scene/animation.hpp"
 
 namespace welkin::viewer {
 
@@ -61,7 +62,21 @@ void drawTime(Workbench& bench) {
   if (ImGui::Button("to 0")) bench.perform(Action::resetTime, "");
   bench.interface.items.mark("time to 0");
   ImGui::SameLine();
-  ImGui::Text("%.0f s", static_cast<double>(bench.document.scene().time));
+  const Scene& scene = bench.document.scene();
+  double last = 0.0;
+  for (const Keyframe& k : scene.keyframes) last = std::max(last, k.time);
+  if (last > 0.0 && hasKeyframes(scene, "camera.")) {
+    ImGui::Checkbox("camera by keyframes", &bench.cameraByKeyframes);
+    bench.interface.items.mark("camera by keyframes");
+  } else {
+    ImGui::NewLine();
+  }
+  float time = scene.time;
+  ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6.0f);
+  if (ImGui::SliderFloat("time", &time, 0.0f, last > 0.0 ? static_cast<float>(last) : 3600.0f, "%.1f s"))
+    bench.document.moveTime(std::clamp(time, 0.0f, 1e7f));
+  bench.interface.items.mark("time");
+  if (last > 0.0 && ImGui::IsItemHovered()) ImGui::SetTooltip("%zu keyframes, to %.1f s", scene.keyframes.size(), last);
   ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6.0f);
   ImGui::SliderFloat("time-lapse", &bench.timeRate, 1.0f, 300.0f, "%.0f x", ImGuiSliderFlags_Logarithmic);
   bench.interface.items.mark("time-lapse");

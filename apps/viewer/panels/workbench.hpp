@@ -10,6 +10,9 @@
 #include "apps/viewer/model/actions.hpp"
 #include "apps/viewer/model/document.hpp"
 #include "apps/viewer/model/navigation.hpp"
+#include "apps/viewer/model/weather_view.hpp"
+#include "apps/viewer/picture/density_slice.hpp"
+#include "apps/viewer/picture/panel_image.hpp"
 #include "apps/viewer/picture/reference.hpp"
 #include "apps/viewer/picture/sky_picture.hpp"
 #include "apps/viewer/picture/thumbnails.hpp"
@@ -30,7 +33,39 @@ struct Pace {
 };
 
 // Panels beside the picture, one at a time.
-enum class Tab { gallery, parameters, sun, wind, camera, film, pace, reference };
+enum class Tab { gallery, parameters, sun, wind, weather, camera, film, pace, inspect, reference };
+
+// The weather map and the brush over it.
+struct WeatherDesk {
+  explicit WeatherDesk(const gl::Api& gl) : image(gl) {}
+  std::size_t layer = 0;
+  WeatherView view{};
+  Brush brush{};
+  std::optional<Stroke> stroke{};  // while the brush is down
+  PanelImage image;
+  std::string imageOf{};  // what it was made for
+};
+
+// A slice of a noise texture.
+struct NoiseDesk {
+  explicit NoiseDesk(const gl::Api& api) : gl(api), image(api) {}
+  const gl::Api& gl;
+  int texture = 0, channel = 0;
+  float depth = 0.0f;  // share of the volume
+  Volume volume{};     // of texture `made`, by `madeWith`
+  int made = -1, shown = -1;
+  NoiseSettings madeWith{};
+  PanelImage image;
+};
+
+// A cut through the clouds.
+struct SliceDesk {
+  explicit SliceDesk(const gl::Api& gl) : image(gl) {}
+  SlicePlane plane{};
+  DensitySlice slice{};
+  PanelImage image;
+  std::string askedFor{};
+};
 
 struct FileDialog {
   std::optional<Action> wanted{};  // to be opened
@@ -47,19 +82,28 @@ struct Workbench {
   Thumbnails& thumbnails;
   Reference& reference;
   Interface& interface;
+  const realtime::CustomTextures& textures;  // of the sky as it is drawn
+  int texturesNumber = 0;                    // grows when they change
+  WeatherDesk weather;
+  NoiseDesk noise;
+  SliceDesk slice;
   Pace pace{};
 
   // Time.
   bool playing = false;
   float timeRate = 1.0f;  // seconds of the sky to a second
+  bool cameraByKeyframes = true;
 
   // The reference.
   bool referenceWanted = false;
   Comparison comparison = Comparison::wipe;
   float wipe = 0.5f;  // share of the picture, from the left, that is the real-time one
 
+  bool mapShown = false;
+
   // Window.
-  bool panels = true, simple = true, keepCamera = false, countSamples = false;
+  bool panels = true, simple = true, keepCamera = false, countSamples = false, showSamples = false;
+  float mostSamples = 128.0f;      // red in the picture of samples
   std::optional<Tab> wantedTab{};  // to be shown from the next frame on
   Tab tab = Tab::parameters;
   FileDialog files{};

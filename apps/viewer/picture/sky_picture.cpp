@@ -28,10 +28,22 @@ uniform sampler2D uLight;
 uniform sampler2D uReference;
 uniform int uComparison;  // the order of Comparison, from 1
 uniform float uWipe;
+uniform sampler2D uSamples;
+uniform float uMostSamples;
 in vec2 vUv;
 layout(location = 0) out vec4 oColour;
+vec3 heat(float share) {
+  vec3 low = mix(vec3(0.02, 0.02, 0.09), vec3(0.10, 0.32, 0.72), clamp(4.0 * share, 0.0, 1.0));
+  vec3 mid = mix(low, vec3(0.18, 0.74, 0.42), clamp(4.0 * share - 1.0, 0.0, 1.0));
+  vec3 high = mix(mid, vec3(0.98, 0.82, 0.20), clamp(4.0 * share - 2.0, 0.0, 1.0));
+  return mix(high, vec3(0.85, 0.12, 0.08), clamp(4.0 * share - 3.0, 0.0, 1.0));
+}
 void main() {
   vec3 shown = toneMap(textureLod(uLight, vUv, 0.0).rgb, uTone);
+#ifdef SAMPLES
+  oColour = vec4(heat(textureLod(uSamples, vUv, 0.0).r / uMostSamples), 1.0);
+  return;
+#endif
 #ifdef COMPARE  // a variant: the software driver runs all of a shader
   vec4 reference = textureLod(uReference, vUv, 0.0);
   vec3 traced = toneMap(reference.rgb, uTone);
@@ -44,6 +56,20 @@ void main() {
   // Half a step of noise against bands (J. Jimenez 2014, interleaved gradient noise).
   float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   oColour = vec4(shown + (noise - 0.5) / 255.0, 1.0);
+}
+)";
+
+// A frame's counts of samples, one of a block, in the places of their pixels.
+constexpr const char* kCountsText = R"(
+uniform sampler2D uCounts;
+uniform ivec4 uBlock;  // offset of the pixel in its block; edge of a block; 1: every pixel takes its block's count
+in vec2 vUv;
+layout(location = 0) out float oCount;
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 block = pixel / uBlock.z;
+  if (uBlock.w == 0 && pixel - block * uBlock.z != uBlock.xy) discard;
+  oCount = texelFetch(uCounts, min(block, textureSize(uCounts, 0) - 1), 0).r;
 }
 )";
 
@@ -86,6 +112,7 @@ int turnsOf(const Quality& quality) {
 // A view with its target.
 struct Canvas {
   gl::Texture light, depth;
+  gl::Texture counts;  // of density samples, while they are counted
   gl::Framebuffer framebuffer, withDepth;
   GLint name = 0, depthName = 0;
   realtime::View view;
@@ -124,8 +151,9 @@ struct SkyPicture::State {
   gl::Api gl;
   realtime::Renderer renderer;
   gl::VertexArray triangle;
-  gl::Program showProgram, meterProgram;
-  mutable gl::Program compareProgram;  // made when first needed
+  gl::Program showProgram, meterProgram, countsProgram;
+  mutable gl::Program compareProgram, samplesProgram;  // made when first needed
+  bool counting = false;
   mutable gl::UniformBuffer tone;
   mutable gl::Framebuffer scratch;
   gl::Texture meter;
@@ -147,7 +175,8 @@ struct SkyPicture::State {
   explicit State(const gl::Loader& loader)
       : gl(gl::loadApi(loader)), renderer(loader), triangle(gl),
         showProgram(gl, "show", "", kShowText, realtime::shaderSource),
-        meterProgram(gl, "meter", "", kMeterText, realtime::shaderSource), tone(gl), scratch(gl),
+        meterProgram(gl, "meter", "", kMeterText, realtime::shaderSource),
+        countsProgram(gl, "counts", "", kCountsText, realtime::shaderSource), tone(gl), scratch(gl),
         meter(gl, gl::Texture::Kind::plane, gl::kRgba32F, kMeterWidth, kMeterHeight, 0, gl::Filter::nearest,
               gl::Addressing::clamp, nullptr) {
     const auto* text = gl.GetString(GL_RENDERER);
@@ -186,7 +215,30 @@ struct SkyPicture::State {
       renderWithForeground(canvas, frame);
     else
       renderer.render(canvas.view, frame);
+    if (counting) gatherCounts(canvas);
     ++canvas.frames;
+  }
+
+  void gatherCounts(Canvas& canvas) {
+    const realtime::Outputs outputs = renderer.outputs(canvas.view);
+    if (outputs.samples.name == 0) return;
+    const int wide = outputs.clouds.width, high = outputs.clouds.height;
+    const bool begins = !canvas.counts || canvas.counts.width() != wide || canvas.counts.height() != high;
+    if (begins)
+      canvas.counts = gl::Texture(gl, gl::Texture::Kind::plane, gl::kR32F, wide, high, 0, gl::Filter::nearest,
+                                  gl::Addressing::clamp, nullptr);
+    const gl::Texture* targets[] = {&canvas.counts};
+    scratch.target(targets);
+    gl.BindVertexArray(triangle.id());
+    gl.UseProgram(countsProgram.id());
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, outputs.samples.name);
+    gl.Uniform1i(countsProgram.uniform("uCounts"), 0);
+    gl.Uniform4i(countsProgram.uniform("uBlock"), static_cast<int>(outputs.cloudDepthOffset.x),
+                 static_cast<int>(outputs.cloudDepthOffset.y), current.reprojection ? current.interleave : 1,
+                 begins || canvas.frames == 0 ? 1 : 0);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.check("gathering counts of samples");
   }
 
   void renderWithForeground(Canvas& canvas, realtime::Frame& frame) {
@@ -326,7 +378,11 @@ void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& fi
   const bool compares = overlay.reference && *overlay.reference;
   if (compares && !s.compareProgram.id())
     s.compareProgram = gl::Program(s.gl, "compare", "#define COMPARE\n", kShowText, realtime::shaderSource);
-  const gl::Program& program = compares ? s.compareProgram : s.showProgram;
+  const gl::Texture& counts = s.shown().counts;
+  const bool counted = overlay.mostSamples > 0.0f && s.counting && counts;
+  if (counted && !s.samplesProgram.id())
+    s.samplesProgram = gl::Program(s.gl, "samples", "#define SAMPLES\n", kShowText, realtime::shaderSource);
+  const gl::Program& program = counted ? s.samplesProgram : compares ? s.compareProgram : s.showProgram;
   s.gl.UseProgram(program.id());
   program.bindBlock("Tone", 0);
   s.tone.bind(0);
@@ -339,6 +395,12 @@ void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& fi
     s.gl.Uniform1i(program.uniform("uReference"), 1);
     s.gl.Uniform1i(program.uniform("uComparison"), static_cast<int>(overlay.comparison) + 1);
     s.gl.Uniform1f(program.uniform("uWipe"), overlay.wipe);
+  }
+  if (counted) {
+    s.gl.ActiveTexture(GL_TEXTURE0 + 2);
+    s.gl.BindTexture(GL_TEXTURE_2D, counts.id());
+    s.gl.Uniform1i(program.uniform("uSamples"), 2);
+    s.gl.Uniform1f(program.uniform("uMostSamples"), overlay.mostSamples);
   }
   s.gl.DrawArrays(GL_TRIANGLES, 0, 3);
   s.gl.check("showing the picture");
@@ -371,6 +433,7 @@ int SkyPicture::height() const { return state_->shown().light.height(); }
 realtime::FrameCost SkyPicture::cost() const { return state_->renderer.lastCost(); }
 void SkyPicture::countSamples(bool on) {
   state_->renderer.countSamples(on);
+  state_->counting = on;
   state_->changed = true;
 }
 std::vector<realtime::MemoryRow> SkyPicture::memory() const { return state_->renderer.memory(state_->shown().view); }

@@ -45,12 +45,13 @@ class SkyPicture {
   // Nothing more would change.
   bool settled() const;
 
-  // Tone-maps the picture into a part of a framebuffer. `film.ev` counts, whatever the mode. `overlay`: the reference
-  // beside or over it.
+  // Tone-maps the picture into a part of a framebuffer. `film.ev` counts, whatever the mode. `overlay`: what is shown
+  // beside or in place of it.
   struct Overlay {
     const gl::Texture* reference = nullptr;
     Comparison comparison = Comparison::wipe;
     float wipe = 0.5f;
+    float mostSamples = 0.0f;  // above 0, while they are counted: density samples in false colours, red at so many
   };
   void show(unsigned framebuffer, const Region& region, const Film& film, const Overlay& overlay) const;
 
