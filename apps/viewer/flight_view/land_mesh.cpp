@@ -61,7 +61,8 @@ LandMesh::LandMesh(const gl::Api& gl, const Terrain& terrain)
   for (int y = 0; y < 3; ++y)
     for (int x = 0; x < 3; ++x) {
       const glm::ivec2 low = glm::ivec2(kCells / 4 - 1) + glm::ivec2(x, y);
-      add(rings_[static_cast<std::size_t>(1 + 3 * y + x)], low, low + kCells / 2);
+      const int ring = 1 + 3 * y + x;
+      add(rings_[static_cast<std::size_t>(ring)], low, low + kCells / 2);
     }
   gl.GenVertexArrays(1, &array_);
   gl.BindVertexArray(array_);
