@@ -83,6 +83,7 @@ law::HostParams hostParams(const law::AtmosphereParams& air, const law::LightVol
   h.clearSky = glm::vec4(light.skyIrradiance, 0.0f);
   h.shadedSky = march.skyIrradiance;
   h.shadedAir = march.shadedAir;
+  h.groundAlbedo = march.groundAlbedo;
   h.bottom = march.bottom;
   h.top = march.top;
   // The march forgets directions within 0.86 / 0.14 mean free paths of typical cloud (march_params.cpp).

@@ -10,6 +10,7 @@ struct HostParams {
   vec4 clearSky;             // irradiance of the open sky on level ground, klx
   vec4 shadedSky;            // the same under the clouds where there is no light volume
   vec4 shadedAir;            // as in MarchParams
+  vec4 groundAlbedo;         // of the sky's own ground
   float bottom, top;         // of the clouds, m
   float extinction;          // that a cloud is taken to have all through, 1/m
   float hasVolume;           // 1 when there is a light volume

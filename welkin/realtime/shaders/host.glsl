@@ -78,6 +78,14 @@ vec3 skyBelow(vec2 place, vec3 sunAbove) {
   return sunAbove * below.x + uWelkin.ambientSky.xyz * (3.14159265 * below.y);
 }
 
+// The same on level ground, with what the clouds send back of the ground's light; `direct`: the sun's on it.
+vec3 skyOnGround(vec2 place, vec3 sunAbove, vec3 direct) {
+  vec3 sky = skyBelow(place, sunAbove);
+  if (uWelkin.hasVolume < 0.5) return sky;
+  vec3 back = uWelkin.groundAlbedo.xyz * (1.0 - lookupBelow(place, uWelkin.volume, uWelkinDiffuse).y);
+  return sky + (direct + sky) * back / (1.0 - back);
+}
+
 // Where the picture shows a vector from the eye, in [0, 1].
 vec2 pictureAt(vec3 d) {
   vec4 p = vec4(d, 1.0);
@@ -132,7 +140,9 @@ WelkinLight welkinLight(vec3 fromEye) {
   light.sun = sunAt(max(q.z, 0.0), d) * sunShareAt(q);
   // Inside the clouds' shell between what is known of its bottom and of its top.
   float height = clamp((q.z - uWelkin.bottom) / max(uWelkin.top - uWelkin.bottom, 1.0), 0.0, 1.0);
-  light.sky = mix(skyBelow(q.xy, sunAt(uWelkin.bottom, d)), uWelkin.clearSky.xyz, height);
+  float slant = dot(uWelkin.air.sunDirection.xyz, normalize(uWelkin.planet.up.xyz * uWelkin.planet.up.w + d));
+  vec3 onGround = skyOnGround(q.xy, sunAt(uWelkin.bottom, d), light.sun * max(slant, 0.0));
+  light.sky = mix(onGround, uWelkin.clearSky.xyz, height);
   return light;
 }
 
