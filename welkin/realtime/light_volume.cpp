@@ -350,34 +350,29 @@ void LightVolume::diffuseDown(gl::Framebuffer& framebuffer, int count) {
   }
 }
 
+// Slice s of the light from itself and the slice before it, which the sampler `before` reads.
+void LightVolume::passOn(const gl::Program& program, const char* before, gl::Framebuffer& framebuffer, int s) {
+  const auto turn = static_cast<std::size_t>(s & 1);
+  slice(program, s);
+  bind(program, before, lightSlice_[1 - turn], kUnits + 3);
+  const gl::Texture* const targets[] = {&lightSlice_[turn]};
+  framebuffer.target(targets);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  copy(0, light_, s);
+}
+
 void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count) {
   use(columnPass_);
   bind(columnPass_, "uDiffuse", light_, kUnits + 1);
   bind(columnPass_, "uShare", share_, kUnits + 4);
-  for (int s = job_->slice; s < job_->slice + count; ++s) {
-    const auto turn = static_cast<std::size_t>(s & 1);
-    slice(columnPass_, s);
-    bind(columnPass_, "uBelow", lightSlice_[1 - turn], kUnits + 3);
-    const gl::Texture* const targets[] = {&lightSlice_[turn]};
-    framebuffer.target(targets);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-    copy(0, light_, s);
-  }
+  for (int s = job_->slice; s < job_->slice + count; ++s) passOn(columnPass_, "uBelow", framebuffer, s);
 }
 
 // The coarsest level alone is asked for it.
 void LightVolume::carryDown(gl::Framebuffer& framebuffer) {
   use(belowPass_);
   bind(belowPass_, "uDiffuse", light_, kUnits + 1);
-  for (int s = slices_ - 1; s >= 0; --s) {
-    const auto turn = static_cast<std::size_t>(s & 1);
-    slice(belowPass_, s);
-    bind(belowPass_, "uAbove", lightSlice_[1 - turn], kUnits + 3);
-    const gl::Texture* const targets[] = {&lightSlice_[turn]};
-    framebuffer.target(targets);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-    copy(0, light_, s);
-  }
+  for (int s = slices_ - 1; s >= 0; --s) passOn(belowPass_, "uAbove", framebuffer, s);
 }
 
 void LightVolume::publish(gl::Framebuffer& framebuffer) {

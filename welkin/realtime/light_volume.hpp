@@ -85,6 +85,7 @@ class LightVolume {
   void fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& framebuffer, int count, int doublings);
   void start(gl::Framebuffer& framebuffer, int count);
   void diffuseDown(gl::Framebuffer& framebuffer, int count);
+  void passOn(const gl::Program& program, const char* before, gl::Framebuffer& framebuffer, int s);
   void diffuseUp(gl::Framebuffer& framebuffer, int count);
   void carryDown(gl::Framebuffer& framebuffer);
   void publish(gl::Framebuffer& framebuffer);
