@@ -337,6 +337,35 @@ TEST(Temporal, AMovingCameraStaysNearTheFullMarch) {
   EXPECT_LT(displayedPsnr(lastFrame(4, true), full), four - 1.0);
 }
 
+// Over a host's picture a pixel's opacity and its light go together, whatever of the history has to go: no cloud turns
+// black, no gap white.
+TEST(Temporal, OpacityAndLightGoTogether) {
+  Stage stage(160, 90);
+  Scene scene = movingScene(4);
+  scene.camera.position.z = 2600.0;
+  scene.camera.pitch = -0.12f;
+  const std::vector<float> land(160 * 90, 1e-6f);  // so far away that it is not in the way
+  const gl::Texture depth = stage.depth(land);
+  const auto flown = [&](int interleave, int from, int frames) {
+    scene.quality.interleave = interleave;
+    stage.sky->setScene(scene);
+    View view;
+    Image image;
+    for (int i = from; i < frames; ++i) {
+      Frame frame = stage.frame(scene);
+      frame.position.y += 1.5 * i;
+      frame.background = Background::host;
+      frame.depthTexture = depth.id();
+      image = stage.draw(view, frame, glm::vec4(4.0f, 4.0f, 4.0f, 1.0f));
+    }
+    return image;
+  };
+  const Image full = flown(1, 39, 40), moving = flown(4, 0, 40);
+  const double far = outside(moving, full, 8);
+  std::printf("in flight: %.3f outside\n", far);
+  EXPECT_LT(far, 0.1);  // .38 where opacity came without light
+}
+
 // The frame after `frames` of a camera that moves, turns, or both, against what it sees when it stands there.
 struct Motion {
   float pitch = 0.0f, heading = 0.0f;  // rad a frame
