@@ -101,10 +101,12 @@ void main() {
   if (uTiming.z < 1.5) {
     float moved = length((shownAt(vec4(dir, 0.0)).xy - before) * uSize.xy);
     vec4 margin = (kMargin + kMarginMoved / max(moved, 1e-3)) * (high - low);
-    // What changes its opacity takes the light along that goes with it: an opaque pixel that got none would be black.
-    float opacity = clamp(old.a, low.a - margin.a, high.a + margin.a);
-    float share = min(abs(opacity - old.a) / max(abs(fresh.a - old.a), 1e-4), 1.0);
-    old = vec4(clamp(mix(old.rgb, fresh.rgb, share), low.rgb - margin.rgb, high.rgb + margin.rgb), opacity);
+    // Over a host's picture, opacity that it gains comes with the new light, and what it loses takes its own along.
+    float left = clamp(old.a, low.a - margin.a, high.a + margin.a), gain = old.a - left;
+    if (uOptions.z != 1.0)
+      old.rgb = gain > 0.0 ? old.rgb + fresh.rgb * (gain / max(1.0 - fresh.a, gain))
+                           : old.rgb * ((1.0 - left) / max(1.0 - old.a, 1e-4));
+    old = vec4(clamp(old.rgb, low.rgb - margin.rgb, high.rgb + margin.rgb), left);
   }
   vec4 kept = known ? old : fresh;
   oColour = marched ? mix(kept, fresh, known ? uTiming.y : 1.0) : kept;
