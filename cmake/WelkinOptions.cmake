@@ -38,3 +38,17 @@ endif()
 if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 endif()
+
+# With CMAKE_UNITY_BUILD several sources are compiled as one, since two thirds of the time goes into reading headers. The
+# kernels, which include themselves once for every instruction set, and the law's tables stand alone.
+function(welkin_stand_alone)
+  foreach(SOURCE IN LISTS ARGN)
+    file(STRINGS ${SOURCE} FOUND REGEX "foreach_target|law_begin|X11/" LIMIT_COUNT 1)
+    if(FOUND)
+      set_source_files_properties(${SOURCE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(welkin_options INTERFACE -Wno-subobject-linkage)  # the files are included, but once
+endif()

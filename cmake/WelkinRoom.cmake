@@ -4,6 +4,7 @@ function(welkin_room NAME)
   cmake_parse_arguments(ROOM "" "" "DEPENDS" ${ARGN})
   file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/welkin/${NAME}/*.cpp
        ${PROJECT_SOURCE_DIR}/welkin/${NAME}/*/*.cpp)
+  welkin_stand_alone(${SOURCES})
   set(TARGET welkin_${NAME})
   if(SOURCES)
     add_library(${TARGET} STATIC ${SOURCES})

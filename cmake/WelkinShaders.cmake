@@ -8,3 +8,4 @@ add_custom_command(OUTPUT ${EMBEDDED}
   COMMAND welkin_embed_shaders ${PROJECT_SOURCE_DIR} ${EMBEDDED} ${WELKIN_GLSL}
   DEPENDS welkin_embed_shaders ${WELKIN_GLSL_PATHS} VERBATIM)
 target_sources(welkin_realtime PRIVATE ${EMBEDDED})
+set_source_files_properties(${EMBEDDED} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "welkin/atmosphere/params.hpp"
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/io/exr.hpp"
 #include "welkin/io/file.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/io/hdr.hpp"
 
 namespace welkin::app {
@@ -19,8 +19,6 @@ namespace welkin::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // The axes of a target: what it is called, its axes in words, and the heading of the picture's middle.
 struct Axes {

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "tests/apps/command.hpp"
 #include "welkin/atmosphere/sun.hpp"
@@ -14,6 +13,7 @@
 #include "welkin/io/exr.hpp"
 #include "welkin/io/hdr.hpp"
 #include "welkin/io/vdb.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/environment.hpp"
 
 namespace welkin {
@@ -22,7 +22,6 @@ namespace {
 using test::Outcome;
 using test::run;
 
-constexpr double kPi = std::numbers::pi;
 // A sun that no cloud hides, away from every target's centre.
 constexpr const char* kSun = " --set sun.elevation=30 --set sun.azimuth=130";
 constexpr double kSunHeading = 130.0, kSunElevation = 30.0;
@@ -52,9 +51,9 @@ EnvironmentPixels pixelsOf(const Image& image, EnvironmentLayout layout, double 
 double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 // klx on a plane facing up: the map's and the sidecar's.
-double upward(const Image& image, EnvironmentLayout layout, double center, const nlohmann::json& json) {
+double upward(const Image& image, EnvironmentLayout layout, double center, const nlohmann::json& side) {
   double sum = luminance(upwardIrradiance(image, pixelsOf(image, layout, center)));
-  for (const auto& light : json["lights"])
+  for (const auto& light : side["lights"])
     sum += light["illuminance"].get<double>() / 1000.0 * std::sin(light["elevation"].get<double>() * kPi / 180.0);
   return sum;
 }
@@ -132,10 +131,10 @@ TEST_F(Hdri, CubeAndLatlongLightAPlaneAlike) {
 TEST_F(Hdri, TwoRunsGiveTheSameBytes) {
   for (const std::string name : {"a.exr", "a.hdr"}) {
     render(name, "--size 64 --quality low");
-    const std::string picture = test::slurp(file(name)), json = test::slurp(file(name) + ".json");
+    const std::string picture = test::slurp(file(name)), beside = test::slurp(file(name) + ".json");
     render(name, "--size 64 --quality low");
     EXPECT_EQ(test::slurp(file(name)), picture);
-    EXPECT_EQ(test::slurp(file(name) + ".json"), json);
+    EXPECT_EQ(test::slurp(file(name) + ".json"), beside);
   }
 }
 

@@ -27,6 +27,17 @@ class TracedCommand : public testing::Test {
   test::Outcome render(const std::string& output, const std::string& options, const std::string& before = "") const {
     return test::run("render " + sky() + " -q --renderer path -o " + path(output) + " " + options, before);
   }
+  std::string checkpoint() const { return " --checkpoint-every 0 --checkpoint " + path("state"); }
+  // Sends the signal to a picture under way when its first checkpoint stands. Its exit code; its messages are a file.
+  int signalled(const std::string& signal, const std::string& output, const std::string& options) const {
+    const std::string alive = "kill -0 $p 2>/dev/null", stands = "[ -s " + path("state") + " ]";
+    const std::string line = std::string("sh -c '\"") + WELKIN_BINARY_DIR + "/bin/welkin\" render " + sky() +
+                             " -q --renderer path -o " + path(output) + " " + options + " & p=$!; while " + alive +
+                             " && ! " + stands + "; do sleep 0.05; done; kill -" + signal + " $p; wait $p' >" +
+                             path("messages") + " 2>&1";
+    const int status = std::system(line.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
   const fs::path folder = fs::temp_directory_path() / ("welkin_traced_" + std::to_string(getpid()));
 };
 
@@ -39,13 +50,8 @@ TEST_F(TracedCommand, TwoRunsGiveTheSameBytesAndLayers) {
 }
 
 TEST_F(TracedCommand, GoesOnAfterAKill) {
-  const std::string options = "--size 192x96 --samples 40 --checkpoint-every 0 --checkpoint " + path("state");
-  // Killed when the first checkpoint stands, or at the latest after a minute.
-  const std::string kill = "( while [ ! -s " + path("state") + " ]; do sleep 0.05; done; kill -9 $p ) & wait $p";
-  const std::string line = std::string("sh -c '\"") + WELKIN_BINARY_DIR + "/bin/welkin\" render " + sky() +
-                           " -q --renderer path -o " + path("cut.exr") + " " + options + " & p=$!; " + kill +
-                           "' >/dev/null 2>&1";
-  [[maybe_unused]] const int ignored = std::system(line.c_str());
+  const std::string options = "--size 192x96 --samples 40" + checkpoint();
+  signalled("KILL", "cut.exr", options);
   ASSERT_TRUE(fs::exists(path("state")));
   ASSERT_FALSE(fs::exists(path("cut.exr")));
   ASSERT_EQ(render("cut.exr", options).code, 0);
@@ -55,10 +61,8 @@ TEST_F(TracedCommand, GoesOnAfterAKill) {
 }
 
 TEST_F(TracedCommand, InterruptedItWritesThePictureSoFar) {
-  const test::Outcome outcome =
-      render("part.exr", "--size 512x256 --samples 1000000", "timeout --signal=INT --preserve-status 3");
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+  EXPECT_EQ(signalled("INT", "part.exr", "--size 512x256 --samples 1000000" + checkpoint()), 0);
+  EXPECT_NE(test::slurp(path("messages")).find("interrupted"), std::string::npos) << test::slurp(path("messages"));
   const Image picture = loadExr(path("part.exr"));
   EXPECT_EQ(picture.width, 512);
   double sum = 0.0;

@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/atmosphere/tables.hpp"
 
 namespace welkin {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // F(theta, gamma) of Perez, Seals and Michalsky 1993 with coefficients linear in turbidity.
 struct Distribution {

@@ -7,16 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "welkin/atmosphere/earth.hpp"
 #include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/atmosphere/tables.hpp"
 
 namespace welkin {
 namespace {
-
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180.0;
 
 double separation(const LunarPosition& m, const SolarPosition& s) {
   return std::acos(std::min(

@@ -4,15 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "welkin/atmosphere/tables.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/base/error.hpp"
 
 namespace welkin {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(Sun, StandsWhereNrelComputesIt) {
   const double days = daysFromDateTime("2003-10-17", "12:30:30") + 7.0 / 24.0;

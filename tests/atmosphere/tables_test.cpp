@@ -5,14 +5,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
+#include "welkin/base/angle.hpp"
 #include "welkin/atmosphere/sun.hpp"
 
 namespace welkin {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const glm::vec3 kBlack(0.0f);
 
 // The published air, which the references were computed for.
@@ -163,7 +162,7 @@ TEST(SkyView, AgreesWithMonteCarlo) {
 
 TEST(SkyView, HasNoSeamAtTheSunsHeadingNorOppositeIt) {
   const SkyTablesCpu sky = bakeSky(published(), glm::vec3(directionFromAngles(0.7, 0.2)), 500.0);
-  for (const double heading : {0.7, 0.7 + std::numbers::pi})
+  for (const double heading : {0.7, 0.7 + kPi})
     for (const double elevation : {0.01, 0.2, 1.0, 1.5}) {
       const auto at = [&](double offset) {
         return luminance(law::lookupSky(sky.skyView.view(), sky.params.air,
@@ -286,11 +285,11 @@ TEST(Light, AgreesWithTheSkyViewTable) {
   constexpr int kSteps = 400;
   for (int i = 0; i < kSteps; ++i)
     for (int j = 0; j < 2 * kSteps; ++j) {
-      const double e = 0.5 * std::numbers::pi * (i + 0.5) / kSteps, a = std::numbers::pi * (j + 0.5) / kSteps;
+      const double e = 0.5 * kPi * (i + 0.5) / kSteps, a = kPi * (j + 0.5) / kSteps;
       const glm::dvec3 c(law::lookupSky(sky.skyView.view(), sky.params.air, glm::vec3(directionFromAngles(a, e))));
-      const double solid = std::cos(e) * (0.5 * std::numbers::pi / kSteps) * (std::numbers::pi / kSteps);
+      const double solid = std::cos(e) * (0.5 * kPi / kSteps) * (kPi / kSteps);
       flux += c * (solid * std::sin(e));
-      mean += c * (solid / (2 * std::numbers::pi));
+      mean += c * (solid / (2 * kPi));
     }
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(sky.light.skyIrradiance[c], flux[c], 0.02 * flux[c]);

@@ -56,11 +56,11 @@ Cells naiveStep(const Cells& before, const Automaton& chances, int step) {
   return after;
 }
 
-constexpr AutomatonSettings kSmall{.width = 128, .breadth = 12, .height = 10, .regions = 3, .activation = 0.02f};
+constexpr AutomatonSettings kSmallCloud{.width = 128, .breadth = 12, .height = 10, .regions = 3, .activation = 0.02f};
 
 TEST(Automaton, FollowsTheRulesOfItsSource) {
   for (const int regions : {0, 3}) {
-    AutomatonSettings s = kSmall;
+    AutomatonSettings s = kSmallCloud;
     s.regions = regions;
     Automaton automaton(s, 7);
     Cells naive = cellsOf(automaton);
@@ -79,7 +79,7 @@ TEST(Automaton, FollowsTheRulesOfItsSource) {
 }
 
 TEST(Automaton, ChancesComeTrueAsOftenAsTheySay) {
-  AutomatonSettings s = kSmall;
+  AutomatonSettings s = kSmallCloud;
   s.regions = 0;
   s.rehumidification = 0.1f;
   const Automaton automaton(s, 7);
@@ -94,7 +94,7 @@ TEST(Automaton, ChancesComeTrueAsOftenAsTheySay) {
 }
 
 TEST(Automaton, WithoutChanceNothingVanishesAndHumidityIsSpent) {
-  AutomatonSettings s = kSmall;
+  AutomatonSettings s = kSmallCloud;
   s.regions = 0;
   s.extinction = s.rehumidification = 0.0f;
   Automaton automaton(s, 2);
@@ -111,7 +111,7 @@ TEST(Automaton, WithoutChanceNothingVanishesAndHumidityIsSpent) {
 }
 
 TEST(Automaton, ExtinctionAndRehumidificationKeepItAlive) {
-  AutomatonSettings s = kSmall;
+  AutomatonSettings s = kSmallCloud;
   s.regions = 0;
   Automaton automaton(s, 2);
   const auto share = [&] {
@@ -127,7 +127,7 @@ TEST(Automaton, ExtinctionAndRehumidificationKeepItAlive) {
 }
 
 TEST(Automaton, WindMovesTheTopOnly) {
-  AutomatonSettings s = kSmall;
+  AutomatonSettings s = kSmallCloud;
   s.regions = 0;
   s.humidity = s.activation = s.rehumidification = s.extinction = 0.0f;
   s.humidity = 0.5f;  // that nothing uses up
@@ -150,7 +150,7 @@ TEST(Automaton, WindMovesTheTopOnly) {
 }
 
 TEST(Automaton, SmoothDensityIsAMean) {
-  AutomatonSettings s = kSmall;
+  AutomatonSettings s = kSmallCloud;
   s.smoothing = 1;
   std::vector<std::vector<std::uint64_t>> clouds(2, std::vector<std::uint64_t>(2 * 12 * 10));
   clouds[0][(5 * 12 + 6) * 2 + 1] = 1;  // the cell (64, 6, 5), in one of two steps

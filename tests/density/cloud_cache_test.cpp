@@ -9,7 +9,7 @@
 namespace welkin {
 namespace {
 
-const CloudCacheExtent kSmall{.weather = {.texels = 256}, .cells = 32, .cellLayers = 24};
+const CloudCacheExtent kSmallCache{.weather = {.texels = 256}, .cells = 32, .cellLayers = 24};
 
 TEST(TexelBounds, HoldEveryFilteredLookup) {
   std::mt19937 random(3);
@@ -58,8 +58,8 @@ std::vector<Layer> layersOf(int kind) {
 
 TEST_P(CloudCaches, BoundsHoldEverySample) {
   const std::vector<Layer> layers = layersOf(GetParam());
-  const CloudCache cache =
-      bakeCloudCache({.layers = layers, .drift = {8.0f, 1.0f, 300.0}, .seed = 5}, {}, {1234.0, -777.0, 150.0}, kSmall);
+  const CloudCache cache = bakeCloudCache({.layers = layers, .drift = {8.0f, 1.0f, 300.0}, .seed = 5}, {},
+                                          {1234.0, -777.0, 150.0}, kSmallCache);
   std::mt19937 random(11);
   std::uniform_real_distribution<float> unit;
   const Majorants& m = cache.majorants;

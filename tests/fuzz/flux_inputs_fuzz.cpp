@@ -21,7 +21,7 @@ constexpr std::string_view kPieces[] = {"nan", "inf",       "-1", "1e999", "1e-9
                                         "180", "\n",        " ",  ",",     "#",      "{",
                                         "[[[", "]",         "}",  "\"",    "\\u",    std::string_view("\0", 1),
                                         ":",   "4294967296"};
-const test::Mutation kMutations[] = {test::anotherDigit, test::piece(kPieces)};
+const test::Mutation kFluxMutations[] = {test::anotherDigit, test::piece(kPieces)};
 
 // Counts the mutations of a text that `read` does not refuse.
 template <class Read>
@@ -30,7 +30,7 @@ int countRead(const std::string& text, const Read& read) {
   int good = 0;
   for (int i = 0; i < kTexts; ++i) {
     std::string mutated = text;
-    for (std::size_t k = 1 + random() % 3; k > 0; --k) test::mutate(mutated, random, kMutations);
+    for (std::size_t k = 1 + random() % 3; k > 0; --k) test::mutate(mutated, random, kFluxMutations);
     try {
       read(mutated);
       ++good;

@@ -18,26 +18,26 @@ namespace welkin {
 namespace {
 
 #ifdef __SANITIZE_THREAD__
-constexpr int kFiles = 1000;  // it is slow, and there is one thread
+constexpr int kPictures = 1000;  // it is slow, and there is one thread
 #else
-constexpr int kFiles = 10000;
+constexpr int kPictures = 10000;
 #endif
 
 // A number that is too large, or negative.
-void anotherNumber(std::string& bytes, std::size_t at, test::Random& random) {
+void extremeNumber(std::string& bytes, std::size_t at, test::Random& random) {
   static constexpr std::uint32_t kNumbers[] = {0x7fffffff, 0xffffffff, 0x80000000, 0x00ffffff, 0xffffff7f, 0};
   if (at + 4 <= bytes.size()) std::memcpy(bytes.data() + at, &kNumbers[random() % 6], 4);
 }
-const test::Mutation kMutations[] = {anotherNumber};
+const test::Mutation kPictureMutations[] = {extremeNumber};
 constexpr std::size_t kHeader = 400;  // bytes, about: half of the mutations go there
 
 void fuzz(const std::vector<std::string>& seeds, const std::function<Image(const std::string&)>& parse) {
   test::Random random(11);
   int refused = 0;
-  for (int i = 0; i < kFiles; ++i) {
+  for (int i = 0; i < kPictures; ++i) {
     std::string bytes = seeds[random() % seeds.size()];
     for (unsigned k = 1 + random() % 3; k > 0; --k)
-      test::mutate(bytes, random, kMutations, random() % 2 ? std::string::npos : kHeader);
+      test::mutate(bytes, random, kPictureMutations, random() % 2 ? std::string::npos : kHeader);
     try {
       const Image image = parse(bytes);
       ASSERT_EQ(image.pixels.size(), static_cast<std::size_t>(image.width) * image.height * image.channels);
@@ -46,7 +46,7 @@ void fuzz(const std::vector<std::string>& seeds, const std::function<Image(const
       ++refused;
     }
   }
-  EXPECT_GT(refused, kFiles / 4);  // or the mutations test nothing
+  EXPECT_GT(refused, kPictures / 4);  // or the mutations test nothing
 #ifndef __SANITIZE_ADDRESS__
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -14,9 +14,9 @@ namespace welkin {
 namespace {
 
 #ifdef __SANITIZE_THREAD__
-constexpr int kFiles = 10000;  // it is slow, and there is one thread
+constexpr int kSkies = 10000;  // it is slow, and there is one thread
 #else
-constexpr int kFiles = 100000;
+constexpr int kSkies = 100000;
 #endif
 
 using test::below;
@@ -93,18 +93,18 @@ void nest(std::string& text, std::size_t at, test::Random& random) {
 void remark(std::string& text, std::size_t at, test::Random&) {
   text.insert(std::min(text.find('\n', at), text.size()), " # remark");
 }
-const test::Mutation kMutations[] = {test::piece(kTokens), sayElsewhere, moveLine, test::anotherDigit,
-                                     anotherNumber,        nest,         remark};
+const test::Mutation kSkyMutations[] = {test::piece(kTokens), sayElsewhere, moveLine, test::anotherDigit,
+                                        anotherNumber,        nest,         remark};
 
 TEST(SkyFileFuzz, EveryMutationIsReadOrRefusedWithItsPlace) {
   std::vector<std::string> seeds;
   for (unsigned i = 0; i < 40; ++i) seeds.push_back(writeSky(test::randomAnimation(i, 0.1)));
   test::Random random(2024);
   int read = 0;
-  for (int i = 0; i < kFiles; ++i) {
+  for (int i = 0; i < kSkies; ++i) {
     std::string text = seeds[below(random, seeds.size())];
     for (std::size_t k = 1 + (random() % 3 == 0 ? below(random, 4) : 0); k > 0; --k)
-      test::mutate(text, random, kMutations);
+      test::mutate(text, random, kSkyMutations);
     try {
       Scene scene = parseSky(text, "f");
       ++read;
@@ -126,8 +126,8 @@ TEST(SkyFileFuzz, EveryMutationIsReadOrRefusedWithItsPlace) {
     }
   }
   // Neither outcome may be rare, or the mutations test nothing.
-  EXPECT_GT(read, kFiles / 10);
-  EXPECT_LT(read, kFiles * 9 / 10);
+  EXPECT_GT(read, kSkies / 10);
+  EXPECT_LT(read, kSkies * 9 / 10);
 }
 
 }  // namespace

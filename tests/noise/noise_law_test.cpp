@@ -65,8 +65,8 @@ TEST(Simplex, HasNoSteps) {
 
 // Each noise on each axis: the same one period on, another half a period on, and never again without a period. Points
 // are multiples of 1/64, so that adding the period is exact.
-using Field = std::function<float(const Vec4&, int period)>;
-void expectPeriod(const char* name, int axes, int period, const Field& field) {
+using NoiseAt = std::function<float(const Vec4&, int period)>;
+void expectPeriod(const char* name, int axes, int period, const NoiseAt& field) {
   int moved = 0, unbounded = 0, count = 0;
   for (Vec4 p : randomPoints(500, 0, 60)) {
     p = glm::floor(p * 64.0f) / 64.0f;

@@ -15,8 +15,6 @@
 namespace welkin::realtime::test {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 36;
-
 // A host's pass over the whole target. Its shader sees the ray of its pixel (`ray`, length 1 along the view's axis, in
 // the host's axes) and two numbers, and writes `vec4 answer`.
 class HostPass {

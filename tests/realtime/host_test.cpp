@@ -8,7 +8,6 @@
 namespace welkin::realtime::test {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 36;
 // Sums that run in another order give the last bits of half floats another turn; 60 dB is a difference of 0.25 bytes.
 constexpr double kSame = 60.0;
 

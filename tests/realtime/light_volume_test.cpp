@@ -10,7 +10,7 @@
 namespace welkin::realtime::test {
 namespace {
 
-constexpr double kThickness = 1200.0, kWidth = 40000.0;
+constexpr double kThickness = 1200.0, kSlabWidth = 40000.0;
 
 // A slab of droplets in a vacuum over ground of that albedo, the sun at 60 degrees; what a camera below it sees that
 // looks up or, with `low` a speck of cloud far below and aside, so that most of the volume's height is clear, down.
@@ -32,9 +32,11 @@ double radianceBelow(double opticalDepth, double albedo, double pitch, bool low)
     textures.grids.push_back(
         placed({.values = GridValues::extinction}, std::make_shared<const VoxelGrid>(std::move(voxels))));
   };
-  add({{64, 64, 24}, {-0.5 * kWidth, -0.5 * kWidth, 1000.0}, {kWidth / 64, kWidth / 64, kThickness / 24}},
+  add({{64, 64, 24},
+       {-0.5 * kSlabWidth, -0.5 * kSlabWidth, 1000.0},
+       {kSlabWidth / 64, kSlabWidth / 64, kThickness / 24}},
       static_cast<float>(opticalDepth / kThickness));
-  if (low) add({{4, 4, 4}, {0.4 * kWidth, 0.4 * kWidth, 200.0}, {10.0, 10.0, 10.0}}, 1e-3f);
+  if (low) add({{4, 4, 4}, {0.4 * kSlabWidth, 0.4 * kSlabWidth, 200.0}, {10.0, 10.0, 10.0}}, 1e-3f);
   Stage stage(16, 16);
   stage.sky->setScene(scene, textures);
   Frame frame = stage.frame(scene);

@@ -3,18 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "tests/realtime/stage.hpp"
 #include "welkin/atmosphere/moon.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/lightning.hpp"
 
 namespace welkin::realtime {
 namespace {
 
 using test::plainScene, test::Stage;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Scene night() {
   Scene scene = plainScene(LayerShape::profile);
@@ -67,7 +65,7 @@ TEST(Night, StarsKeepTheirLightAtEveryResolution) {
   };
   const double coarse = starlight(256), fine = starlight(768);
   EXPECT_NEAR(coarse / fine, 1.0, 0.1);
-  EXPECT_GT(fine, 0.3 * 2.4e-7 / (4.0 * std::numbers::pi)) << "a third of the mean of the sphere, at least";
+  EXPECT_GT(fine, 0.3 * 2.4e-7 / (4.0 * kPi)) << "a third of the mean of the sphere, at least";
 }
 
 TEST(Night, DayIsTheSameWithAndWithoutStars) {

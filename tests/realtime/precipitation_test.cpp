@@ -14,8 +14,6 @@
 namespace welkin::realtime::test {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 36;
-
 // Steady rain from a closed layer, seen from the ground.
 Scene rainy() {
   Scene scene = plainScene(LayerShape::profile);

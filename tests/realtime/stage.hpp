@@ -10,6 +10,8 @@
 
 namespace welkin::realtime::test {
 
+constexpr int kWidth = 64, kHeight = 36;  // of small pictures
+
 class Stage {
  public:
   Stage(int width, int height, gl::ContextKind kind = gl::ContextKind::desktop);

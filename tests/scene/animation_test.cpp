@@ -7,12 +7,11 @@
 
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/error.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/sections.hpp"
 
 namespace welkin {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 Keyframe key(double time, const char* path, FieldValue value, Interpolation how = Interpolation::linear) {
   return {time, how, {{path, std::move(value)}}};

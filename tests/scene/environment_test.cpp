@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/camera.hpp"
 
 namespace welkin {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 glm::dvec3 toward(double heading, double elevation) {  // degrees
   const double h = heading * kPi / 180.0, e = elevation * kPi / 180.0;

@@ -4,12 +4,11 @@
 #include <cmath>
 
 #include "welkin/atmosphere/moon.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/trace/path_tracer.hpp"
 
 namespace welkin::trace {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 double luminanceOf(const TraceLayers& layers) {
   double sum = 0.0;

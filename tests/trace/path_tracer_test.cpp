@@ -6,12 +6,11 @@
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/light/law.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/trace/path_tracer.hpp"
 
 namespace welkin::trace {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 const CloudCacheExtent kCoarse{.weather = {.texels = 256}, .cells = 64, .cellLayers = 32};
 

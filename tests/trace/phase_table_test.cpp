@@ -5,16 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "tests/trace/lanes.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/base/error.hpp"
 
 namespace welkin {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Named {
   const char* name;
@@ -24,7 +22,7 @@ struct Named {
 };
 
 // A made-up function with a peak, a fog bow, a gap without light and a glory, in steps of half a degree.
-PhaseTable lumpy() {
+PhaseTable lumpyTable() {
   std::vector<double> degrees, values;
   for (int i = 0; i <= 360; ++i) {
     const double d = 0.5 * i;
@@ -46,7 +44,7 @@ std::vector<Named> tables() {
   all.push_back({"flat table", PhaseTable::tabulated(ends, flat), 0.0, 1e-5});
   // (1 + cosTheta) / (4 pi): mean cosine 1/3.
   all.push_back({"ramp", PhaseTable::tabulated(ends, ramp), 1.0 / 3.0, 1e-4});
-  PhaseTable table = lumpy();
+  PhaseTable table = lumpyTable();
   const double g = table.meanCosine();
   all.push_back({"lumpy", std::move(table), g, 1e-3});
   return all;

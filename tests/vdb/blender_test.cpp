@@ -55,7 +55,7 @@ for name, hidden in (('WITH', False), ('WITHOUT', True)):
     print(name, sum(pixels[0::4]) / (len(pixels) / 4))
 )py";
 
-std::string run(const std::string& command) {
+std::string outputOf(const std::string& command) {
   std::string text;
   FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   if (!pipe) return text;
@@ -71,12 +71,12 @@ double numberAfter(const std::string& text, const std::string& word) {
 }
 
 TEST(BlenderLong, ImportsAndRendersTheVolume) {
-  if (run("command -v blender").empty()) GTEST_SKIP() << "Blender is not installed (Debian: blender)";
+  if (outputOf("command -v blender").empty()) GTEST_SKIP() << "Blender is not installed (Debian: blender)";
   const std::string path = test::temporary("for_blender.vdb"), script = test::temporary("blender.py");
   saveVdb(path, test::ball({40, 24, 32}, {-200.0, 400.0, 800.0}, glm::dvec3(12.5)), {}, VolumePrecision::half);
   writeBytes(script, kScript);
-  const std::string text = run("blender -b --factory-startup -noaudio -t 2 --python " + script + " -- " + path + " " +
-                               test::temporary("blender_"));
+  const std::string text = outputOf("blender -b --factory-startup -noaudio -t 2 --python " + script + " -- " + path +
+                                    " " + test::temporary("blender_"));
   EXPECT_NE(text.find("GRID density FLOAT"), std::string::npos) << text;
   double box[6] = {};
   const std::size_t at = text.find("\nBOX ");

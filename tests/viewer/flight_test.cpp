@@ -7,14 +7,15 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
+
+#include "welkin/base/angle.hpp"
 
 namespace welkin::viewer {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0, kGravity = 9.81;
+constexpr double kGravity = 9.81;
 
 class Plain final : public SurfaceSource {
  public:
@@ -71,8 +72,8 @@ TEST(Aircraft, TurnsAtTheRateOfItsBank) {
       ++steps;
       EXPECT_LT(std::abs(now.sideslip), 2.0 * kDegree);
     });
-    const double turned = std::remainder(attitudeOf(a).heading - before, 2.0 * std::numbers::pi);
-    EXPECT_NEAR(turned, std::remainder(rate / steps * 10.0, 2.0 * std::numbers::pi), 0.05 * std::abs(turned)) << bank;
+    const double turned = std::remainder(attitudeOf(a).heading - before, 2.0 * kPi);
+    EXPECT_NEAR(turned, std::remainder(rate / steps * 10.0, 2.0 * kPi), 0.05 * std::abs(turned)) << bank;
     EXPECT_NEAR(attitudeOf(a).bank, bank, 2.0 * kDegree);
     EXPECT_NEAR(a.loadFactor, 1.0 / std::cos(bank), 0.08);
     EXPECT_NEAR(a.velocity.z, 0.0, 3.0);

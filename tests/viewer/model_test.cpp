@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,12 +13,11 @@
 #include "apps/viewer/model/simple_fields.hpp"
 #include "apps/viewer/model/sun_path.hpp"
 #include "welkin/scene/camera.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/sections.hpp"
 
 namespace welkin::viewer {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(Navigation, OrbitingKeepsThePivot) {
   Navigation navigation;

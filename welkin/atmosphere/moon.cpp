@@ -3,26 +3,25 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "welkin/atmosphere/earth.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/atmosphere/sun.hpp"
 
 namespace welkin {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180.0;
 constexpr double kEarthRadius = 6378.14e3, kAstronomicalUnit = 1.496e11, kMeanDistance = 385000.56e3;  // m
 constexpr double kMoonRadius = 1737.4e3;
 
 // Multiples of the four arguments, and amplitudes: longitude in 1e-6 deg, distance in m (Meeus 1998 table 47.A); terms
 // under 0.008 deg are left out.
-struct Term {
+struct MoonTerm {
   int elongation, sunAnomaly, anomaly, node;
   double longitude, distance;
 };
-constexpr std::array<Term, 24> kTerms{
+constexpr std::array<MoonTerm, 24> kTerms{
     {{0, 0, 1, 0, 6288774, -20905355}, {2, 0, -1, 0, 1274027, -3699111}, {2, 0, 0, 0, 658314, -2955968},
      {0, 0, 2, 0, 213618, -569925},    {0, 1, 0, 0, -185116, 48888},     {0, 0, 0, 2, -114332, -3149},
      {2, 0, -2, 0, 58793, 246158},     {2, -1, -1, 0, 57066, -152138},   {2, 0, 1, 0, 53322, -170733},
@@ -32,16 +31,16 @@ constexpr std::array<Term, 24> kTerms{
      {4, 0, -2, 0, 8548, -21636},      {2, 1, -1, 0, -7888, 24208},      {2, 1, 0, 0, -6766, 30824},
      {1, 0, -1, 0, -5163, -8379},      {1, 1, 0, 0, 4987, -16675},       {2, -1, 1, 0, 4036, -12831}}};
 // Latitude in 1e-6 deg (table 47.B).
-constexpr std::array<Term, 10> kLatitudes{{{0, 0, 0, 1, 5128122, 0},
-                                           {0, 0, 1, 1, 280602, 0},
-                                           {0, 0, 1, -1, 277693, 0},
-                                           {2, 0, 0, -1, 173237, 0},
-                                           {2, 0, -1, 1, 55413, 0},
-                                           {2, 0, -1, -1, 46271, 0},
-                                           {2, 0, 0, 1, 32573, 0},
-                                           {0, 0, 2, 1, 17198, 0},
-                                           {2, 0, 1, -1, 9266, 0},
-                                           {0, 0, 2, -1, 8822, 0}}};
+constexpr std::array<MoonTerm, 10> kLatitudes{{{0, 0, 0, 1, 5128122, 0},
+                                               {0, 0, 1, 1, 280602, 0},
+                                               {0, 0, 1, -1, 277693, 0},
+                                               {2, 0, 0, -1, 173237, 0},
+                                               {2, 0, -1, 1, 55413, 0},
+                                               {2, 0, -1, -1, 46271, 0},
+                                               {2, 0, 0, 1, 32573, 0},
+                                               {0, 0, 2, 1, 17198, 0},
+                                               {2, 0, 1, -1, 9266, 0},
+                                               {0, 0, 2, -1, 8822, 0}}};
 
 // From the Earth's centre, on equatorial axes of date, m.
 glm::dvec3 geocentricMoon(double daysSince2000) {
@@ -53,15 +52,15 @@ glm::dvec3 geocentricMoon(double daysSince2000) {
   const double node = (93.2720950 + 483202.0175233 * t) * kDegree;
   const double eccentricity = 1.0 - 0.002516 * t;
   double longitude = 0.0, latitude = 0.0, distance = kMeanDistance;
-  const auto argument = [&](const Term& k) {
+  const auto argument = [&](const MoonTerm& k) {
     return k.elongation * elongation + k.sunAnomaly * sunAnomaly + k.anomaly * anomaly + k.node * node;
   };
-  for (const Term& k : kTerms) {
+  for (const MoonTerm& k : kTerms) {
     const double factor = k.sunAnomaly == 0 ? 1.0 : eccentricity;
     longitude += factor * k.longitude * std::sin(argument(k));
     distance += factor * k.distance * std::cos(argument(k));
   }
-  for (const Term& k : kLatitudes) latitude += k.longitude * std::sin(argument(k));
+  for (const MoonTerm& k : kLatitudes) latitude += k.longitude * std::sin(argument(k));
   const EarthAxis axis = earthAxis(daysSince2000);
   const double lambda = (mean + longitude * 1e-6) * kDegree + axis.nutation, beta = latitude * 1e-6 * kDegree;
   const glm::dvec3 ecliptic(std::cos(beta) * std::cos(lambda), std::cos(beta) * std::sin(lambda), std::sin(beta));

@@ -1,8 +1,8 @@
+#include "welkin/base/angle.hpp"
 #include "welkin/atmosphere/params.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace welkin {
 
@@ -19,7 +19,6 @@ constexpr double kMieScattering = 3.996e-6, kMieExtinction = 4.440e-6, kMieHeigh
 constexpr double kOzone[2][3] = {{2.49e-6, 1.79e-6, 0.0}, {0.650e-6, 1.881e-6, 0.085e-6}};
 constexpr double kOzoneMiddle = 25e3, kOzoneHalfWidth = 15e3;
 constexpr double kAerialRange = 400e3;  // m, chosen; from high up it reaches 1.3 times the distance of the horizon
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Twilight falls by about a factor 2^1.1 for each degree of the sun's depression: 10^6 until astronomical night.
 double twilight(double elevation) { return std::exp2(1.1 * std::clamp(elevation / kDegree, -18.0, 0.0)); }
@@ -90,7 +89,7 @@ law::AtmosphereParams makeAtmosphereParams(const Atmosphere& a, const SkyLights&
 law::PreethamParams makePreethamParams(double turbidity, const SkyLights& lights) {
   const double t = turbidity;
   const double elevation = std::asin(std::clamp(static_cast<double>(lights.light.direction.z), -1.0, 1.0));
-  const double theta = std::min(0.5 * std::numbers::pi - elevation, 0.5 * std::numbers::pi);
+  const double theta = std::min(0.5 * kPi - elevation, 0.5 * kPi);
 
   // 000 eq. 2.42 to 2.44: slope and offset in turbidity, for Y, x and y.
   constexpr double kSlope[5][3] = {{0.1787, -0.0193, -0.0167},
@@ -108,7 +107,7 @@ law::PreethamParams makePreethamParams(double turbidity, const SkyLights& lights
     for (int c = 0; c < 3; ++c) f[i][c] = kSlope[i][c] * t + kOffset[i][c];
 
   // 000 eq. 2.39 (with the paper's 4.0453) to 2.41, polynomials in the sun's zenith angle.
-  const double chi = (4.0 / 9.0 - t / 120.0) * (std::numbers::pi - 2.0 * theta);
+  const double chi = (4.0 / 9.0 - t / 120.0) * (kPi - 2.0 * theta);
   const double zenith[3] = {(4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192,
                             t * t * horner(theta, {0.00166, -0.00375, 0.00209, 0.0}) +
                                 t * horner(theta, {-0.02903, 0.06377, -0.03202, 0.00394}) +

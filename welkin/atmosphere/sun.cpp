@@ -4,54 +4,52 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "welkin/atmosphere/earth.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/base/error.hpp"
 
 namespace welkin {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 constexpr double kArcsecond = kDegree / 3600.0;
 
 // VSOP87 (Bretagnon and Francou 1988), heliocentric longitude of the Earth: amplitude (1e-8 rad), phase, frequency (per
 // 1000 years). Terms under 2.7e-6 rad are left out.
-struct Term {
+struct EarthTerm {
   double amplitude, phase, frequency;
 };
-constexpr std::array<Term, 22> kL0{{{175347046, 0, 0},
-                                    {3341656, 4.6692568, 6283.0758500},
-                                    {34894, 4.62610, 12566.15170},
-                                    {3497, 2.7441, 5753.3849},
-                                    {3418, 2.8289, 3.5231},
-                                    {3136, 3.6277, 77713.7715},
-                                    {2676, 4.4181, 7860.4194},
-                                    {2343, 6.1352, 3930.2097},
-                                    {1324, 0.7425, 11506.7698},
-                                    {1273, 2.0371, 529.6910},
-                                    {1199, 1.1096, 1577.3435},
-                                    {990, 5.233, 5884.927},
-                                    {902, 2.045, 26.298},
-                                    {857, 3.508, 398.149},
-                                    {780, 1.179, 5223.694},
-                                    {753, 2.533, 5507.553},
-                                    {505, 4.583, 18849.228},
-                                    {492, 4.205, 775.523},
-                                    {357, 2.920, 0.067},
-                                    {317, 5.849, 11790.629},
-                                    {284, 1.899, 796.298},
-                                    {271, 0.315, 10977.079}}};
-constexpr std::array<Term, 4> kL1{
+constexpr std::array<EarthTerm, 22> kL0{{{175347046, 0, 0},
+                                         {3341656, 4.6692568, 6283.0758500},
+                                         {34894, 4.62610, 12566.15170},
+                                         {3497, 2.7441, 5753.3849},
+                                         {3418, 2.8289, 3.5231},
+                                         {3136, 3.6277, 77713.7715},
+                                         {2676, 4.4181, 7860.4194},
+                                         {2343, 6.1352, 3930.2097},
+                                         {1324, 0.7425, 11506.7698},
+                                         {1273, 2.0371, 529.6910},
+                                         {1199, 1.1096, 1577.3435},
+                                         {990, 5.233, 5884.927},
+                                         {902, 2.045, 26.298},
+                                         {857, 3.508, 398.149},
+                                         {780, 1.179, 5223.694},
+                                         {753, 2.533, 5507.553},
+                                         {505, 4.583, 18849.228},
+                                         {492, 4.205, 775.523},
+                                         {357, 2.920, 0.067},
+                                         {317, 5.849, 11790.629},
+                                         {284, 1.899, 796.298},
+                                         {271, 0.315, 10977.079}}};
+constexpr std::array<EarthTerm, 4> kL1{
     {{628331966747, 0, 0}, {206059, 2.678235, 6283.075850}, {4303, 2.6351, 12566.1517}, {425, 1.590, 3.523}}};
-constexpr std::array<Term, 2> kL2{{{52919, 0, 0}, {8720, 1.0721, 6283.0758}}};
+constexpr std::array<EarthTerm, 2> kL2{{{52919, 0, 0}, {8720, 1.0721, 6283.0758}}};
 
 template <std::size_t N>
-double sumTerms(const std::array<Term, N>& terms, double tau) {
+double sumTerms(const std::array<EarthTerm, N>& terms, double tau) {
   double sum = 0;
-  for (const Term& t : terms) sum += t.amplitude * std::cos(t.phase + t.frequency * tau);
+  for (const EarthTerm& t : terms) sum += t.amplitude * std::cos(t.phase + t.frequency * tau);
   return sum * 1e-8;
 }
 

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "welkin/atmosphere/bake.hpp"
 #include "welkin/atmosphere/sun.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/base/parallel.hpp"
 
 namespace welkin {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void forRows(int rows, const std::function<void(int)>& body) {
   parallelFor(static_cast<std::size_t>(rows), 1, [&](std::size_t begin, std::size_t end) {

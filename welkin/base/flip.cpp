@@ -9,13 +9,13 @@
 
 #include "welkin/base/error.hpp"
 #include "welkin/base/law_tone.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/base/parallel.hpp"
 
 namespace welkin {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Exponents and knots of sections 4.1.4 and 4.3.
 constexpr float kColourPower = 0.7f, kKneeIn = 0.4f, kKneeOut = 0.95f, kFeaturePower = 0.5f;
 constexpr double kFeatureWidth = 0.082;  // degrees: width of the edges that eyes respond to most

@@ -8,7 +8,7 @@
 namespace welkin {
 
 namespace {
-constexpr int kMostCells = 4;  // read along an axis; larger boxes take a coarser mip
+constexpr int kMostRead = 4;  // read along an axis; larger boxes take a coarser mip
 
 Interval joined(const Interval& a, const Interval& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 }  // namespace
@@ -57,7 +57,7 @@ Interval TexelBounds::between(const glm::vec3& low, const glm::vec3& high) const
   const glm::vec3 from = low - 0.51f, to = high + 0.51f;
   const glm::vec3 size = to - from;
   const float widest = std::max({size.x, size.y, kind_ != Kind::planes ? size.z : 0.0f});
-  const int wanted = std::max(0, static_cast<int>(std::ceil(std::log2(std::max(widest, 1.0f) / (kMostCells - 1)))));
+  const int wanted = std::max(0, static_cast<int>(std::ceil(std::log2(std::max(widest, 1.0f) / (kMostRead - 1)))));
   const std::size_t level = std::min(static_cast<std::size_t>(wanted), mips_.size() - 1);
   const Mip& mip = mips_[level];
   const float scale = std::exp2(-static_cast<float>(level));

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "welkin/base/parallel.hpp"
+#include "welkin/density/hero_bounds.hpp"
 #include "welkin/density/hero_parts.hpp"
 #include "welkin/density/hero_shape.hpp"
 #include "welkin/noise/textures.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 constexpr int kBillowTexels = 128;
 constexpr std::uint32_t kBillowSeed = 71;
-constexpr float kPerlinMost = 1.04f;
 constexpr double kChurn = 60.0;  // s, in which the simplex noise of "classic" becomes another, by choice
 
 std::uint32_t seedOf(int scene, int cloud) {

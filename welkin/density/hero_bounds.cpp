@@ -10,8 +10,6 @@ namespace welkin {
 
 namespace {
 
-constexpr float kPerlinMost = 1.04f;
-
 Interval product(const Interval& a, const Interval& b) {
   const float p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
   return {std::min({p, q, r, s}), std::max({p, q, r, s})};

@@ -7,6 +7,8 @@
 
 namespace welkin {
 
+inline constexpr float kPerlinMost = 1.04f;  // gradient noise in space goes no further from zero
+
 class HeroBounds {
  public:
   // Keeps references to the parts and to the bounds of the tile of billows.

@@ -18,8 +18,6 @@ namespace welkin {
 
 namespace {
 
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
-
 // An open file descriptor.
 class Descriptor {
  public:
@@ -43,23 +41,25 @@ class Descriptor {
                        : error == ENOENT                   ? "; make the folder first"
                        : error == EACCES || error == EROFS ? "; choose a folder that you may write to"
                                                            : "";
-  throw Error(ErrorKind::failed, path, fmt::format("cannot be written: {}{}", reason(error), advice));
+  throw Error(ErrorKind::failed, path, fmt::format("cannot be written: {}{}", systemReason(error), advice));
 }
 
 }  // namespace
+
+std::string systemReason(int error) { return std::error_code(error, std::generic_category()).message(); }
 
 std::string readFile(const std::string& path, std::size_t most) {
   const auto refuse = [&](const std::string& why) -> void {
     throw Error(ErrorKind::badInput, path, "cannot be read: " + why);
   };
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0) refuse(reason(errno));
+  if (file.get() < 0) refuse(systemReason(errno));
   std::string bytes;
   char block[1 << 16];
   for (;;) {
     const ssize_t got = ::read(file.get(), block, sizeof block);
     if (got < 0 && errno == EINTR) continue;
-    if (got < 0) refuse(reason(errno));
+    if (got < 0) refuse(systemReason(errno));
     if (got == 0) return bytes;
     bytes.append(block, static_cast<std::size_t>(got));
     if (bytes.size() > most) refuse(fmt::format("it is longer than {} bytes", most));

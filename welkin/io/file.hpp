@@ -26,6 +26,9 @@ void writeStreamAtomically(const std::string& path, const char* format,
 // before hours of work, not after.
 void requireWritable(const std::string& path);
 
+// What the system says of an errno.
+std::string systemReason(int error);
+
 // Writes bytes to a file and reports what the system reports late (a full disk). Throws Error (failed).
 void writeBytes(const std::string& path, std::string_view bytes);
 

@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "welkin/base/error.hpp"
+#include "welkin/io/file.hpp"
 
 namespace welkin {
 
@@ -24,13 +25,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
-
 struct Pipe {
   std::array<int, 2> ends{-1, -1};  // read, write
   explicit Pipe(const std::string& where) {
     if (::pipe(ends.data()) != 0)
-      throw Error(ErrorKind::failed, where, "cannot be read in a process of its own: " + reason(errno));
+      throw Error(ErrorKind::failed, where, "cannot be read in a process of its own: " + systemReason(errno));
     for (const int end : ends) ::fcntl(end, F_SETFD, FD_CLOEXEC);
   }
   ~Pipe() { closeRead(), closeWrite(); }
@@ -136,7 +135,7 @@ void runIsolated(const std::string& where, const IsolationLimits& limits, const 
   Pipe data(where), complaint(where);
   const std::size_t used = addressSpace();
   const pid_t id = ::fork();
-  if (id < 0) throw Error(ErrorKind::failed, where, "cannot be read in a process of its own: " + reason(errno));
+  if (id < 0) throw Error(ErrorKind::failed, where, "cannot be read in a process of its own: " + systemReason(errno));
   if (id == 0) runChild(limits, used, work, data.ends[1], complaint.ends[1]);
   Child child(id);
   data.closeWrite();
@@ -155,7 +154,7 @@ void runIsolated(const std::string& where, const IsolationLimits& limits, const 
       if (answer <= 0) continue;
       const ssize_t got = ::read(from.ends[0], bytes, most);
       if (got >= 0) return static_cast<std::size_t>(got);
-      if (errno != EINTR) throw Error(ErrorKind::failed, where, "cannot be read: " + reason(errno));
+      if (errno != EINTR) throw Error(ErrorKind::failed, where, "cannot be read: " + systemReason(errno));
     }
   };
   // Throws what the child has to say about its end, if it was not a good one.

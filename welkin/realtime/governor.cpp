@@ -24,7 +24,7 @@ constexpr std::size_t kMild = 15;    // frames before a small excess counts
 constexpr std::size_t kCalm = 24;    // frames before a better rung is tried
 constexpr std::size_t kProof = 120;  // frames after which a climb has proved right
 constexpr std::size_t kMostPatience = 16;
-constexpr double kFar = 1.25, kOver = 1.03;      // times over the target that call for less
+constexpr double kFarOver = 1.25, kOver = 1.03;  // times over the target that call for less
 constexpr double kAimDown = 0.95, kAimUp = 0.9;  // where a change is meant to end
 constexpr double kMostRest = 0.9;                // share of a frame that may be out of reach
 constexpr double kMostRestDown = 0.5;            // the same while time is short: too far down is put right soon
@@ -188,7 +188,7 @@ bool Governor::take(double seconds) {
   if (change_) learn();
 
   const double recent = medianOfLast(kSpike);
-  const bool over = recent > kFar * target_ || (frames >= kMild && medianOfLast(kMild) > kOver * target_);
+  const bool over = recent > kFarOver * target_ || (frames >= kMild && medianOfLast(kMild) > kOver * target_);
   if (over) {
     if (rung_ + 1 == rungs_.size()) return false;
     if (climbed_) patience_ = std::min(2 * patience_, kMostPatience);

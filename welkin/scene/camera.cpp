@@ -1,16 +1,12 @@
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/camera.hpp"
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace welkin {
 
-namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 glm::dmat3 cameraAxes(const Camera& camera) {
   const double ch = std::cos(camera.heading), sh = std::sin(camera.heading);

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "welkin/atmosphere/params.hpp"
 #include "welkin/base/law_tone.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/camera.hpp"
 
 namespace welkin {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Luminance in the middle of a soft sun, kcd/m^2: half floats end at 65504, and the sky round it comes on top.
 constexpr double kSoftPeak = 40000.0;
 constexpr double kFineness = 4.0;  // points on the radius of a disc, at least

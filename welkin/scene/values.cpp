@@ -70,7 +70,7 @@ FieldValue valueFromText(const Field& field, std::string_view text) {
   return std::string(unquoted(text));
 }
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\')
@@ -112,7 +112,7 @@ std::string formatValue(const Field& field, const FieldValue& value) {
   if (const double* real = std::get_if<double>(&value)) return shortest(field, *real);
   if (const std::int64_t* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
   if (const bool* on = std::get_if<bool>(&value)) return *on ? "true" : "false";
-  if (const std::string* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const std::string* text = std::get_if<std::string>(&value)) return inQuotes(*text);
   const auto& v = std::get<std::array<double, 3>>(value);
   return fmt::format("[{}, {}, {}]", shortest(field, v[0]), shortest(field, v[1]), shortest(field, v[2]));
 }

@@ -6,15 +6,14 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "welkin/base/angle.hpp"
 #include "welkin/base/error.hpp"
 
 namespace welkin {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSteepest = 0.999;         // |g|; beyond it weights would leave the neighbourhood of 1
 constexpr std::size_t kMostRows = 1000000;  // a row every 0.2 millidegrees
 constexpr float kTiny = 1e-30f;

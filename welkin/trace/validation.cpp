@@ -4,15 +4,14 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "welkin/base/angle.hpp"
 #include "welkin/trace/published.hpp"
 
 namespace welkin {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFluxGate = 1e-3, kRadianceGate = 0.01;
 
 double degreesOf(double cosine) { return std::acos(cosine) * 180.0 / kPi; }

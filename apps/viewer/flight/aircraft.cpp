@@ -6,13 +6,13 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/mat3x3.hpp>
-#include <numbers>
+
+#include "welkin/base/angle.hpp"
 
 namespace welkin::viewer {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180.0;
 constexpr double kGravity = 9.81, kSeaLevelDensity = 1.225;
 
 // Sizes and masses: m, m^2, kg, kg m^2. Roskam's Cessna 182, somewhat heavier.

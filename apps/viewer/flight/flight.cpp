@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/mat3x3.hpp>
-#include <numbers>
+
+#include "welkin/base/angle.hpp"
 
 namespace welkin::viewer {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi, kFrame = 1.0 / 60.0;
 const glm::dvec3 kHead(0.25, -0.28, -0.62);  // the pilot's, body axes, m
 constexpr double kChaseDistance = 16.0, kChaseHeight = 3.4;
 // How much lower than the nose, or than ahead, the eyes look: rad.
@@ -78,16 +78,16 @@ void Flight::advance(const Hands& hands, double time) {
   recorder_.add(controls, pilot.view());
   const glm::dvec3 right = glm::mat3_cast(aircraft_.attitude)[1];
   const Air air = air_.at(aircraft_.position, right * kWingTip, time);
-  for (int i = 0; i < std::lround(kFrame / kFlightStep); ++i) step(aircraft_, controls, air, terrain_);
+  for (int i = 0; i < std::lround(kFlightFrame / kFlightStep); ++i) step(aircraft_, controls, air, terrain_);
   const double extinction = air_.extinction(aircraft_.position);
   visibility_ = extinction > 3.9e-6 ? 3.9 / extinction : 1e6;
-  climb_ += (aircraft_.velocity.z - climb_) * kFrame / 0.6;
+  climb_ += (aircraft_.velocity.z - climb_) * kFlightFrame / 0.6;
   const Attitude attitude = attitudeOf(aircraft_);
   // Near the vertical a heading says nothing.
   if (std::abs(attitude.pitch) < 1.2)
-    chaseHeading_ += wrapped(attitude.heading - chaseHeading_) * (1.0 - std::exp(-kFrame / 0.35));
-  chasePitch_ += (0.6 * attitude.pitch - chasePitch_) * (1.0 - std::exp(-kFrame / 0.35));
-  seconds_ += kFrame;
+    chaseHeading_ += wrapped(attitude.heading - chaseHeading_) * (1.0 - std::exp(-kFlightFrame / 0.35));
+  chasePitch_ += (0.6 * attitude.pitch - chasePitch_) * (1.0 - std::exp(-kFlightFrame / 0.35));
+  seconds_ += kFlightFrame;
 }
 
 Camera Flight::camera(const Camera& camera, const Gaze& gaze) const {

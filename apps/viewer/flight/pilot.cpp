@@ -11,7 +11,7 @@ namespace welkin::viewer {
 
 namespace {
 
-constexpr float kFrame = 1.0f / 60.0f;  // s
+constexpr float kHandFrame = static_cast<float>(kFlightFrame);
 
 struct Control {
   std::string_view name;
@@ -24,7 +24,7 @@ constexpr Control kControls[] = {{"pitch", &Controls::pitch, -1.0f}, {"bank", &C
 constexpr std::string_view kViews[] = {"cockpit", "chase"};
 
 float toward(float now, float wanted, float seconds) {
-  const float most = kFrame / seconds;
+  const float most = kHandFrame / seconds;
   return now + std::clamp(wanted - now, -most, most);
 }
 
@@ -42,7 +42,7 @@ void Pilot::move(const Hands& hands) {
   controls_.pitch = stick(controls_.pitch, hands.pitch, hands.stickPitch);
   controls_.bank = stick(controls_.bank, hands.bank, hands.stickBank);
   controls_.yaw = stick(controls_.yaw, hands.yaw, hands.stickYaw);
-  controls_.throttle = std::clamp(controls_.throttle + hands.throttle * kFrame / 2.5f, 0.0f, 1.0f);
+  controls_.throttle = std::clamp(controls_.throttle + hands.throttle * kHandFrame / 2.5f, 0.0f, 1.0f);
   controls_.brake = hands.brake ? 1.0f : 0.0f;
 }
 

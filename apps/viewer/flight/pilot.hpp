@@ -8,6 +8,8 @@
 
 namespace welkin::viewer {
 
+inline constexpr double kFlightFrame = 1.0 / 60.0;  // s, after which the hands have moved
+
 enum class FlightView { cockpit, chase };
 
 // What hands do at one moment, each in [-1, 1].

@@ -8,17 +8,18 @@
 #include <string>
 #include <vector>
 
+#include "welkin/base/angle.hpp"
+
 namespace welkin::viewer {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr double kKnot = 1852.0 / 3600.0, kFoot = 0.3048;
 constexpr ImU32 kWhite = IM_COL32(235, 238, 240, 255), kDim = IM_COL32(150, 158, 165, 255),
                 kFace = IM_COL32(18, 20, 23, 255), kRim = IM_COL32(70, 76, 82, 255),
                 kAmber = IM_COL32(255, 190, 70, 255), kRed = IM_COL32(235, 70, 55, 255),
                 kGreen = IM_COL32(80, 190, 90, 255), kSky = IM_COL32(62, 122, 186, 255),
-                kEarth = IM_COL32(112, 78, 48, 255);
+                kSoil = IM_COL32(112, 78, 48, 255);
 
 // A point at an angle clockwise from the top.
 ImVec2 on(const ImVec2& centre, float radius, float angle) {
@@ -36,7 +37,7 @@ class Dial {
                    std::max(1.0f, 0.025f * r_));
   }
   void arc(float from, float to, ImU32 colour) const {
-    list_->PathArcTo(c_, 0.95f * r_, from - 0.5f * kPi, to - 0.5f * kPi, 24);
+    list_->PathArcTo(c_, 0.95f * r_, from - 0.5f * kPiFloat, to - 0.5f * kPiFloat, 24);
     list_->PathStroke(colour, ImDrawFlags_None, std::max(1.5f, 0.06f * r_));
   }
   void text(const ImVec2& at, const std::string& words, float share, ImU32 colour = kWhite) const {
@@ -48,8 +49,8 @@ class Dial {
   void name(const std::string& words) const { text({c_.x, c_.y + 0.36f * r_}, words, 0.19f, kDim); }
   void needle(float angle, float length, ImU32 colour = kWhite) const {
     const float w = 0.05f * r_;
-    const ImVec2 tip = on(c_, length * r_, angle), left = on(c_, w, angle - 0.5f * kPi),
-                 right = on(c_, w, angle + 0.5f * kPi);
+    const ImVec2 tip = on(c_, length * r_, angle), left = on(c_, w, angle - 0.5f * kPiFloat),
+                 right = on(c_, w, angle + 0.5f * kPiFloat);
     list_->AddTriangleFilled(tip, left, right, colour);
     list_->AddCircleFilled(c_, 0.09f * r_, kRim, 16);
   }
@@ -66,7 +67,7 @@ class Dial {
 void airspeed(const Dial& d, const Flight& flight) {
   // 0 at the top, 220 knots after 330 degrees.
   const auto angle = [](double knots) {
-    return static_cast<float>(std::clamp(knots, 0.0, 222.0) / 240.0) * 2.0f * kPi;
+    return static_cast<float>(std::clamp(knots, 0.0, 222.0) / 240.0) * 2.0f * kPiFloat;
   };
   d.arc(angle(45), angle(90), kWhite);
   d.arc(angle(90), angle(150), kGreen);
@@ -90,12 +91,12 @@ void attitude(const Dial& d, const Attitude& now) {
   const auto at = [&](float x, float y) {
     return ImVec2(c.x + along.x * x + down.x * y, c.y + along.y * x + down.y * y);
   };
-  d.list()->AddCircleFilled(c, r, kEarth, 48);
+  d.list()->AddCircleFilled(c, r, kSoil, 48);
   const float half = std::acos(std::clamp(below / r, -1.0f, 1.0f));
   // From the horizon's right end over the top to its left end; angles from `down`.
   std::vector<ImVec2> sky;
   for (int i = 0; i <= 40; ++i) {
-    const float t = half + (2.0f * kPi - 2.0f * half) * static_cast<float>(i) / 40.0f;
+    const float t = half + (2.0f * kPiFloat - 2.0f * half) * static_cast<float>(i) / 40.0f;
     sky.push_back(at(r * std::sin(t), r * std::cos(t)));
   }
   d.list()->AddConvexPolyFilled(sky.data(), static_cast<int>(sky.size()), kSky);
@@ -108,7 +109,7 @@ void attitude(const Dial& d, const Attitude& now) {
     if (x * x + y * y < 0.75f * r * r) d.list()->AddLine(at(-x, y), at(x, y), kWhite, 1.0f);
   }
   for (const int degrees : {-60, -45, -30, -20, -10, 10, 20, 30, 45, 60})
-    d.tick(static_cast<float>(degrees) * kPi / 180.0f, degrees % 30 == 0);
+    d.tick(static_cast<float>(degrees) * kPiFloat / 180.0f, degrees % 30 == 0);
   const ImVec2 top = on(c, 0.8f * d.radius(), -bank);
   d.list()->AddTriangleFilled(top, on(c, 0.68f * d.radius(), -bank - 0.08f), on(c, 0.68f * d.radius(), -bank + 0.08f),
                               kWhite);
@@ -121,11 +122,11 @@ void attitude(const Dial& d, const Attitude& now) {
 
 void altimeter(const Dial& d, const Aircraft& aircraft) {
   const double feet = aircraft.position.z / kFoot;
-  for (int i = 0; i < 50; ++i) d.tick(2.0f * kPi * static_cast<float>(i) / 50.0f, i % 5 == 0);
-  for (int i = 0; i < 10; ++i) d.label(2.0f * kPi * static_cast<float>(i) / 10.0f, fmt::format("{}", i));
+  for (int i = 0; i < 50; ++i) d.tick(2.0f * kPiFloat * static_cast<float>(i) / 50.0f, i % 5 == 0);
+  for (int i = 0; i < 10; ++i) d.label(2.0f * kPiFloat * static_cast<float>(i) / 10.0f, fmt::format("{}", i));
   d.text({d.centre().x, d.centre().y + 0.32f * d.radius()}, fmt::format("{:.0f} ft", feet), 0.24f, kAmber);
-  d.needle(static_cast<float>(feet / 10000.0) * 2.0f * kPi, 0.5f);
-  d.needle(static_cast<float>(std::fmod(feet, 1000.0) / 1000.0) * 2.0f * kPi, 0.84f);
+  d.needle(static_cast<float>(feet / 10000.0) * 2.0f * kPiFloat, 0.5f);
+  d.needle(static_cast<float>(std::fmod(feet, 1000.0) / 1000.0) * 2.0f * kPiFloat, 0.84f);
 }
 
 void turnAndSlip(const Dial& d, const Aircraft& aircraft, const Attitude& now) {
@@ -136,9 +137,9 @@ void turnAndSlip(const Dial& d, const Aircraft& aircraft, const Attitude& now) {
   const ImVec2 c = d.centre();
   const float r = d.radius();
   for (const float side : {-1.0f, 1.0f}) {
-    d.tick(side * 0.5f * kPi, true);
-    d.tick(side * (0.5f * kPi + 0.44f), true);
-    const ImVec2 tip = on(c, 0.72f * r, side * 0.5f * kPi + tilt);
+    d.tick(side * 0.5f * kPiFloat, true);
+    d.tick(side * (0.5f * kPiFloat + 0.44f), true);
+    const ImVec2 tip = on(c, 0.72f * r, side * 0.5f * kPiFloat + tilt);
     d.list()->AddLine(c, tip, kWhite, std::max(2.0f, 0.06f * r));
   }
   d.list()->AddCircleFilled(c, 0.11f * r, kWhite, 16);
@@ -153,14 +154,14 @@ void turnAndSlip(const Dial& d, const Aircraft& aircraft, const Attitude& now) {
 
 void compass(const Dial& d, const Attitude& now) {
   const auto heading = static_cast<float>(now.heading);
-  for (int i = 0; i < 36; ++i) d.tick(static_cast<float>(i) * kPi / 18.0f - heading, i % 3 == 0);
+  for (int i = 0; i < 36; ++i) d.tick(static_cast<float>(i) * kPiFloat / 18.0f - heading, i % 3 == 0);
   const char* const names[] = {"N", "3", "6", "E", "12", "15", "S", "21", "24", "W", "30", "33"};
-  for (int i = 0; i < 12; ++i) d.label(static_cast<float>(i) * kPi / 6.0f - heading, names[i]);
+  for (int i = 0; i < 12; ++i) d.label(static_cast<float>(i) * kPiFloat / 6.0f - heading, names[i]);
   const ImVec2 c = d.centre();
   d.list()->AddTriangleFilled(on(c, 0.36f * d.radius(), 0.0f), on(c, 0.3f * d.radius(), 2.6f),
                               on(c, 0.3f * d.radius(), -2.6f), kAmber);
   d.text({c.x, c.y + 0.4f * d.radius()},
-         fmt::format("{:03.0f}", std::fmod(heading * 180.0f / kPi + 0.5f, 360.0f) - 0.5f), 0.24f, kAmber);
+         fmt::format("{:03.0f}", std::fmod(heading * 180.0f / kPiFloat + 0.5f, 360.0f) - 0.5f), 0.24f, kAmber);
 }
 
 void verticalSpeed(const Dial& d, double climb) {

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
+
+#include "welkin/base/angle.hpp"
 
 namespace welkin::viewer {
 
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Closed rows of points, one behind the other; normals by the differences of neighbours, `flip` where they would point
 // inward.
@@ -59,7 +58,7 @@ void addBody(ModelMesh& mesh, Part part, const std::vector<BodySection>& section
   const auto rowAt = [&](const BodySection& s) {
     std::vector<glm::vec3> row;
     for (int i = 0; i < kRound; ++i) {
-      const float t = 2.0f * kPi * static_cast<float>(i) / kRound, c = std::cos(t), d = std::sin(t);
+      const float t = 2.0f * kPiFloat * static_cast<float>(i) / kRound, c = std::cos(t), d = std::sin(t);
       const float e = 2.0f / s.square;
       row.emplace_back(s.x, s.halfWidth * std::copysign(std::pow(std::abs(c), e), c),
                        s.z + s.halfHeight * std::copysign(std::pow(std::abs(d), e), d));
@@ -97,7 +96,7 @@ void addWing(ModelMesh& mesh, Part part, const std::vector<WingSection>& section
     for (int i = 0; i < 2 * kHalf; ++i) {
       // From the trailing edge along one side to the leading edge and back, closer together in front.
       const float share = static_cast<float>(i) / kHalf;
-      const float x = 0.5f + 0.5f * std::cos(kPi * share);
+      const float x = 0.5f + 0.5f * std::cos(kPiFloat * share);
       const float half = std::copysign(thicknessAt(x, s.thickness), i <= kHalf ? 1.0f : -1.0f);
       const glm::vec3 side = upright ? glm::vec3(0.0f, half, 0.0f) : glm::vec3(0.0f, 0.0f, half);
       row.push_back(s.leadingEdge + s.chord * (glm::vec3(-x, 0.0f, 0.0f) - side));
@@ -120,7 +119,7 @@ void addRod(ModelMesh& mesh, Part part, const glm::vec3& from, const glm::vec3& 
   constexpr int kRound = 16;
   std::vector<std::vector<glm::vec3>> rows(2);
   for (int i = 0; i < kRound; ++i) {
-    const float t = 2.0f * kPi * static_cast<float>(i) / kRound;
+    const float t = 2.0f * kPiFloat * static_cast<float>(i) / kRound;
     const glm::vec3 out = radius * (std::cos(t) * side + std::sin(t) * other);
     rows[0].push_back(from + out);
     rows[1].push_back(to + out);

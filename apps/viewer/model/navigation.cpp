@@ -3,24 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "welkin/base/angle.hpp"
 #include "welkin/scene/camera.hpp"
 
 namespace welkin::viewer {
 
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kSteepest = 89.0f * kPi / 180.0f;
+constexpr float kSteepest = 89.0f * kPiFloat / 180.0f;
 constexpr double kLowest = 2.0;    // m above the ground: eyes of a person
 constexpr double kHighest = 60e3;  // m
 constexpr float kTurnRate = 0.9f;  // rad/s
 constexpr double kJourney = 1.0;   // s
 
 float wrapped(float angle) {
-  angle = std::fmod(angle, 2.0f * kPi);
-  return angle < 0.0f ? angle + 2.0f * kPi : angle;
+  angle = std::fmod(angle, 2.0f * kPiFloat);
+  return angle < 0.0f ? angle + 2.0f * kPiFloat : angle;
 }
 
 void keepInBounds(Camera& camera) {
@@ -34,7 +33,7 @@ void keepInBounds(Camera& camera) {
 glm::dvec3 forwardOf(const Camera& camera) { return cameraAxes(camera)[2]; }
 
 float mixAngles(float a, float b, float t) {
-  const float turn = std::remainder(b - a, 2.0f * kPi);
+  const float turn = std::remainder(b - a, 2.0f * kPiFloat);
   return a + turn * t;
 }
 
@@ -56,8 +55,8 @@ void Navigation::look(Camera& camera, const glm::vec2& drag) const {
 
 void Navigation::orbit(Camera& camera, const glm::vec2& drag) const {
   const glm::dvec3 pivot = camera.position + forwardOf(camera) * pivotDistance;
-  camera.heading += drag.x * kPi;
-  camera.pitch = std::clamp(camera.pitch - drag.y * kPi, -kSteepest, kSteepest);
+  camera.heading += drag.x * kPiFloat;
+  camera.pitch = std::clamp(camera.pitch - drag.y * kPiFloat, -kSteepest, kSteepest);
   camera.position = pivot - forwardOf(camera) * pivotDistance;
   keepInBounds(camera);
 }
@@ -78,7 +77,7 @@ void Navigation::dolly(Camera& camera, float clicks) {
 }
 
 void Navigation::zoom(Camera& camera, float clicks) const {
-  camera.fov = std::clamp(camera.fov * std::exp(-0.08f * clicks), 3.0f * kPi / 180.0f, 120.0f * kPi / 180.0f);
+  camera.fov = std::clamp(camera.fov * std::exp(-0.08f * clicks), 3.0f * kPiFloat / 180.0f, 120.0f * kPiFloat / 180.0f);
 }
 
 // Quick enough to cross a cloud in a few seconds from wherever one is.

@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "apps/viewer/model/sun_path.hpp"
 #include "apps/viewer/panels/dial.hpp"
 #include "apps/viewer/panels/panels.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/base/error.hpp"
 
 namespace welkin::viewer {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kDeepest = -18.0 * kPi / 180.0;  // where night is complete
 
 // The sky as a disc: the zenith in the middle, the horizon a circle, twilight outside.

@@ -5,12 +5,12 @@
 #include <glm/geometric.hpp>
 
 #include "welkin/density/hero_shape.hpp"
+#include "welkin/base/angle.hpp"
 #include "welkin/noise/law.hpp"
 
 namespace welkin {
 
 namespace {
-constexpr float kPi = 3.14159265f;
 constexpr float kSoft = 0.25f;  // of the texture, over which the density rises; by choice
 }  // namespace
 
@@ -20,8 +20,9 @@ float spectralTexture(const glm::vec3& p, int octaves, float contrast, float pha
   float sumX = 0.0f, sumY = 0.0f, amplitude = 1.0f, total = 0.0f, f = 1.0f;
   for (int i = 0; i < octaves; ++i) {
     const float own = phase * static_cast<float>(i + 1);
-    const float shiftX = 0.5f * kPi * std::sin(0.5f * f * p.y + own) + kPi * std::sin(0.5f * f * p.z);
-    const float shiftY = 0.5f * kPi * std::sin(0.5f * f * p.x - own) + kPi * std::sin(0.5f * f * p.z + 0.5f * kPi);
+    const float shiftX = 0.5f * kPiFloat * std::sin(0.5f * f * p.y + own) + kPiFloat * std::sin(0.5f * f * p.z);
+    const float shiftY =
+        0.5f * kPiFloat * std::sin(0.5f * f * p.x - own) + kPiFloat * std::sin(0.5f * f * p.z + 0.5f * kPiFloat);
     sumX += amplitude * std::sin(f * p.x + shiftX + own);
     sumY += amplitude * std::sin(f * p.y + shiftY - own);
     total += amplitude;
@@ -35,13 +36,13 @@ TexturedEllipsoids::TexturedEllipsoids(const EllipsoidSettings& settings, const 
     : settings_(settings), ellipsoids_(makeEllipsoids(settings.count, size, seed)), waves_(settings.frequency / size.x),
       seed_(seed) {
   HeroDice dice(seed ^ 0x9E3779B9u);
-  phase_ = dice(0.0f, 2.0f * kPi);
+  phase_ = dice(0.0f, 2.0f * kPiFloat);
 }
 
 float TexturedEllipsoids::texture(const glm::vec3& p) const {
   if (settings_.texture == EllipsoidTexture::spectral)
     // The square root evens out the product's many small values.
-    return std::sqrt(spectralTexture(p * (2.0f * kPi * waves_), settings_.octaves, settings_.contrast, phase_));
+    return std::sqrt(spectralTexture(p * (2.0f * kPiFloat * waves_), settings_.octaves, settings_.contrast, phase_));
   const float n = law::perlinFbm3(p * (2.0f * waves_), 0, settings_.octaves, 2, settings_.contrast, seed_);
   return std::clamp(0.5f + 1.2f * n, 0.0f, 1.0f);
 }
