@@ -1,4 +1,5 @@
 // The field's answers are the law's, evaluated by hand, wherever in the world it is asked.
+#include "tests/density/small_noise.hpp"
 #include "welkin/density/field.hpp"
 
 #include <gtest/gtest.h>
@@ -12,16 +13,6 @@
 
 namespace welkin {
 namespace {
-
-NoiseSettings smallNoise() {
-  NoiseSettings n;
-  n.profile.baseSize = 32;
-  n.profile.detailSize = 32;
-  n.profile.warpSize = 16;
-  n.baseShape.size = 32;
-  n.curl.size = 32;
-  return n;
-}
 
 std::vector<Layer> twoLayers() {
   std::vector<Layer> layers(2);
@@ -87,7 +78,7 @@ Difference compare(const std::vector<float>& a, const std::vector<float>& b) {
 // A 30 m ramp turns the rims' 2e-3 of a height in the weather into a tenth of full extinction; few points stand there.
 TEST(DensityField, IsTheLawEvaluatedByHand) {
   const std::vector<Layer> layers = twoLayers();
-  const NoiseSettings noise = smallNoise();
+  const NoiseSettings noise = test::smallNoise();
   const Drift drift{9.0f, 4.0f, 700.0};
   const DensityField clouds({.layers = layers, .noise = noise, .drift = drift, .seed = 3});
   const std::vector<glm::dvec3> points = pointsRound({5000.0, -9000.0}, 1000.0, 5000.0);
@@ -111,7 +102,7 @@ TEST(DensityField, IsAsPreciseFarFromTheOrigin) {
     l.cloud.updraft = 0.0f;
     l.cloud.detailDrift = 1.0f;
   }
-  const NoiseSettings noise = smallNoise();
+  const NoiseSettings noise = test::smallNoise();
   const Drift still{10.0f, 4.7123890f, 0.0}, late{10.0f, 4.7123890f, 1e5};
   const DensityField near({.layers = layers, .noise = noise, .drift = still, .seed = 3});
   const DensityField far({.layers = layers, .noise = noise, .drift = late, .seed = 3});
@@ -126,7 +117,7 @@ TEST(DensityField, IsAsPreciseFarFromTheOrigin) {
 // Where a block of points is cut, and so which anchor it takes, does not show.
 TEST(DensityField, AnchorsDoNotShow) {
   const std::vector<Layer> layers = twoLayers();
-  const DensityField clouds({.layers = layers, .noise = smallNoise(), .seed = 3});
+  const DensityField clouds({.layers = layers, .noise = test::smallNoise(), .seed = 3});
   const std::vector<glm::dvec3> points = pointsRound({9e5, -7e5}, 1000.0, 5000.0);
   std::vector<float> one;
   for (std::size_t i = 0; i < 600; ++i) one.push_back(clouds.extinction(points[i]));
@@ -140,7 +131,7 @@ TEST(DensityField, AnchorsDoNotShow) {
 TEST(DensityField, ColumnsAreVerticalIntegrals) {
   std::vector<Layer> layers(1);
   layers[0].weather.coverage = 0.9f;
-  const DensityField clouds({.layers = layers, .noise = smallNoise(), .seed = 3});
+  const DensityField clouds({.layers = layers, .noise = test::smallNoise(), .seed = 3});
   std::vector<glm::dvec2> places;
   for (int i = 0; i < 100; ++i) places.emplace_back(700.0 * i, 300.0 * i);
   const std::vector<CloudColumn> columns = clouds.columns(0, places, 10.0);
@@ -201,9 +192,9 @@ TEST(DensityField, SheetsAreTheLawEvaluatedByHand) {
 TEST(DensityField, RefusesAMissingMap) {
   std::vector<Layer> layers(1);
   layers[0].weather.map = "picture.png";
-  EXPECT_THROW(DensityField({.layers = layers, .noise = smallNoise()}), Error);
+  EXPECT_THROW(DensityField({.layers = layers, .noise = test::smallNoise()}), Error);
   const std::vector<Volume> maps{Volume(2, 2, 1, 4)};
-  EXPECT_NO_THROW(DensityField({.layers = layers, .noise = smallNoise(), .weatherMaps = maps}));
+  EXPECT_NO_THROW(DensityField({.layers = layers, .noise = test::smallNoise(), .weatherMaps = maps}));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Turbulence: where it is, how strong, and that its gusts are a flow.
+#include "tests/density/small_noise.hpp"
 #include "welkin/density/turbulence.hpp"
 
 #include <gtest/gtest.h>
@@ -9,14 +10,6 @@
 
 namespace welkin {
 namespace {
-
-NoiseSettings smallNoise() {
-  NoiseSettings n;
-  n.profile.baseSize = 32;
-  n.profile.detailSize = 32;
-  n.profile.warpSize = 16;
-  return n;
-}
 
 Layer cumulusHumilis() {
   Layer layer;
@@ -36,7 +29,8 @@ Layer cumulonimbus() {
   return layer;
 }
 DensityField fieldOf(const Layer& layer) {
-  return DensityField({.layers = std::span(&layer, 1), .noise = smallNoise(), .drift = {8.0f, 1.0f, 0.0}, .seed = 5});
+  return DensityField(
+      {.layers = std::span(&layer, 1), .noise = test::smallNoise(), .drift = {8.0f, 1.0f, 0.0}, .seed = 5});
 }
 
 std::vector<glm::dvec3> level(double altitude, double edge, int count = 36) {

@@ -80,7 +80,7 @@ TEST(LightVolume, GroundUnderASlabIsLitByWhatItLetsThrough) {
 }
 
 // A small sky of cumulus whose picture needs no history.
-Scene cumulus() {
+Scene litCumulus() {
   Scene scene = plainScene(LayerShape::profile);
   scene.quality.lightFrames = 8;
   scene.quality.reprojection = false;
@@ -100,7 +100,7 @@ int framesUntil(Stage& stage, const Frame& frame, const Image& end, int most) {
 // Thinner clouds, the sun elsewhere: the light changes over several frames, and ends as if it had been made at once.
 TEST(LightVolume, ChangesByAndByAndEndsWhereItWouldAtOnce) {
   Stage stage(48, 27);
-  const Scene before = cumulus();
+  const Scene before = litCumulus();
   const Frame frame = stage.frame(before);
   Scene thinner = before, turned = before;
   thinner.layers[0].cloud.extinction *= 0.3f;
@@ -130,7 +130,7 @@ TEST(LightVolume, ChangesByAndByAndEndsWhereItWouldAtOnce) {
 // Sliders that move all the time: every level gets its turn, so that the light is never older than a round.
 TEST(LightVolume, KeepsUpWithASunThatNeverStands) {
   Stage stage(48, 27);
-  Scene scene = cumulus();
+  Scene scene = litCumulus();
   stage.draw(scene);
   const double start = scene.sun.azimuth;
   Image last;
@@ -150,7 +150,7 @@ TEST(LightVolume, KeepsUpWithASunThatNeverStands) {
 // Clouds that change all the time: weather and light come after, and stand still soon after them.
 TEST(LightVolume, KeepsUpWithCloudsThatNeverStand) {
   Stage stage(48, 27);
-  Scene scene = cumulus();
+  Scene scene = litCumulus();
   const Image then = stage.draw(scene);
   const float start = scene.layers[0].weather.coverage;
   Image last;
@@ -178,7 +178,7 @@ double lightMilliseconds(Renderer& sky) {
 // Eyes 20 km apart, each with light of its own; eyes 500 m apart share it.
 TEST(LightVolume, EveryEyeKeepsItsOwnAndNeighboursShare) {
   Stage stage(48, 27);
-  Scene scene = cumulus();
+  Scene scene = litCumulus();
   stage.sky->setScene(scene);
   View near, beside, far;
   Frame here = stage.frame(scene), there = here, next = here;
@@ -214,7 +214,7 @@ TEST(LightVolume, EveryEyeKeepsItsOwnAndNeighboursShare) {
 // An eye that flies off takes its own along, and one that has been left alone flies on with what there was.
 TEST(LightVolume, EyesThatPartStayTrue) {
   Stage stage(48, 27);
-  Scene scene = cumulus();
+  Scene scene = litCumulus();
   stage.sky->setScene(scene);
   View still, moving;
   const Frame here = stage.frame(scene);

@@ -6,6 +6,9 @@
 
 namespace welkin {
 
+// The attribute of picture files that holds Image::features.
+inline constexpr const char* kFeaturesAttribute = "welkin:features";
+
 // A picture: rows from top to bottom, channels interleaved, linear floats unless said otherwise.
 struct Image {
   int width = 0, height = 0, channels = 3;

@@ -20,6 +20,9 @@ struct WeatherExtent {
   double edge(int level) const;  // m
 };
 
+// Shares of a level's edge that the camera may move before the level is made again, and after which it is of no use.
+inline constexpr double kLeash = 0.08, kUseless = 0.3;
+
 // Where a level is centred that serves `inAir` (m, in the air's own frame): on a texel's corner.
 glm::dvec2 levelCentre(const WeatherExtent& extent, int level, const glm::dvec2& inAir);
 

@@ -29,11 +29,10 @@ namespace {
 
 constexpr const char* kColours[] = {"R", "G", "B", "A"};
 constexpr const char* kGrey[] = {"Y"};
-constexpr const char* kFeatures = "welkin:features";
-constexpr int kMaxSide = 32768, kMaxTile = 4096;
-constexpr std::size_t kMaxPixels = std::size_t{1} << 27, kMaxBytes = std::size_t{1} << 32;
+constexpr int kMaxExrSide = 32768, kMaxTile = 4096;
+constexpr std::size_t kMaxExrPixels = std::size_t{1} << 27, kMaxExrBytes = std::size_t{1} << 32;
 // No compression of OpenEXR makes a picture more than about a thousand times smaller (deflate: 1032).
-constexpr std::size_t kMaxRatio = 4096;
+constexpr std::size_t kMaxExrRatio = 4096;
 constexpr float kLargestHalf = 65504.0f;
 
 std::span<const char* const> channelNames(int channels) {
@@ -62,7 +61,7 @@ Imf::Header headerOf(const Image& image, const ExrMetadata& metadata) {
   header.compression() = Imf::ZIP_COMPRESSION;
   Imf::addChromaticities(header, Imf::Chromaticities());
   Imf::addWhiteLuminance(header, 1000.0f);
-  if (!image.features.empty()) header.insert(kFeatures, Imf::StringAttribute(image.features));
+  if (!image.features.empty()) header.insert(kFeaturesAttribute, Imf::StringAttribute(image.features));
   if (metadata.environment != ExrEnvironment::none)
     Imf::addEnvmap(header, metadata.environment == ExrEnvironment::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
   if (metadata.environment == ExrEnvironment::latlong) Imf::addWrapmodes(header, "periodic,clamp");
@@ -153,7 +152,7 @@ Image read(std::string_view bytes, const std::string& path) {
   requireHeader(bytes);
   static std::once_flag limited;
   std::call_once(limited, [] {
-    Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+    Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
     Imf::Header::setMaxTileSize(kMaxTile, kMaxTile);
   });
   Bytes stream(bytes, path);
@@ -162,16 +161,17 @@ Image read(std::string_view bytes, const std::string& path) {
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-  if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > kMaxPixels)
+  if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > kMaxExrPixels)
     throw Error(ErrorKind::badInput, path, fmt::format("{} x {} pixels are too many", width, height));
   const auto has = [&](const char* name) { return header.channels().findChannel(name) != nullptr; };
   const bool colour = has("R") && has("G") && has("B");
   if (!colour && !has("Y")) throw Error(ErrorKind::badInput, path, "has neither the channels R, G, B nor Y");
   const int channels = !colour ? 1 : has("A") ? 4 : 3;
-  if (static_cast<std::size_t>(width * height) * channels * sizeof(float) / kMaxRatio > bytes.size())
+  if (static_cast<std::size_t>(width * height) * channels * sizeof(float) / kMaxExrRatio > bytes.size())
     throw Error(ErrorKind::badInput, path, fmt::format("is too short for {} x {} pixels", width, height));
   Image image(static_cast<int>(width), static_cast<int>(height), channels);
-  if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(kFeatures)) image.features = text->value();
+  if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(kFeaturesAttribute))
+    image.features = text->value();
   Imf::FrameBuffer buffer;
   const auto names = channelNames(image.channels);
   const std::size_t step = sizeof(float) * image.channels, row = step * image.width;
@@ -202,7 +202,7 @@ void saveExr(const std::string& path, const Image& image, ExrPrecision precision
 
 std::string exrVersion() { return OPENEXR_VERSION_STRING; }
 
-Image loadExr(const std::string& path) { return parseExr(readFile(path, kMaxBytes), path); }
+Image loadExr(const std::string& path) { return parseExr(readFile(path, kMaxExrBytes), path); }
 
 Image parseExr(std::string_view bytes, const std::string& path) {
   try {

@@ -14,12 +14,12 @@ namespace welkin {
 
 namespace {
 
-constexpr std::size_t kMaxPixels = std::size_t{1} << 27, kMaxBytes = std::size_t{1} << 31;
+constexpr std::size_t kMaxHdrPixels = std::size_t{1} << 27, kMaxHdrBytes = std::size_t{1} << 31;
 constexpr int kMinRun = 8, kMaxRun = 32767;  // widths of rows that may be run-length encoded
 constexpr int kBias = 128;
 // A byte pair stands for at most 127 bytes; the older scheme repeats a pixel 255 times by four bytes, and 255^2 times
 // by eight.
-constexpr std::size_t kMaxRatio = 1 << 16;
+constexpr std::size_t kMaxHdrRatio = 1 << 16;
 
 void encodePixel(const float* colour, int channels, std::uint8_t* rgbe) {
   float most = 0.0f;
@@ -65,7 +65,7 @@ void appendRuns(std::string& out, const std::uint8_t* row, int width, int stride
 }
 
 // The bytes of a file, one after the other.
-struct Reader {
+struct RgbeReader {
   std::string_view rest;
   const std::string& name;
 
@@ -87,7 +87,7 @@ struct Reader {
   }
 };
 
-void readSize(Reader& reader, int& width, int& height) {
+void readSize(RgbeReader& reader, int& width, int& height) {
   const std::string_view line = reader.line();
   const char *at = line.data(), *end = at + line.size();
   const auto side = [&](std::string_view lead, int& value) {
@@ -100,7 +100,7 @@ void readSize(Reader& reader, int& width, int& height) {
     reader.refuse("its size is not written as \"-Y HEIGHT +X WIDTH\", with rows from the top");
 }
 
-void readPlanes(Reader& reader, std::uint8_t* row, int width) {
+void readPlanes(RgbeReader& reader, std::uint8_t* row, int width) {
   for (int k = 0; k < 4; ++k)
     for (int x = 0; x < width;) {
       const int count = reader.byte(), length = count > 128 ? count - 128 : count;
@@ -111,7 +111,7 @@ void readPlanes(Reader& reader, std::uint8_t* row, int width) {
 }
 
 // Flat pixels, and the older runs: (1, 1, 1, n) repeats the pixel before n times, n * 256 times after another such.
-void readPixels(Reader& reader, std::uint8_t* row, int width) {
+void readPixels(RgbeReader& reader, std::uint8_t* row, int width) {
   for (int x = 0, shift = 0; x < width;) {
     const std::string_view bytes = reader.take(4);
     std::copy_n(bytes.data(), 4, reinterpret_cast<char*>(row) + static_cast<std::size_t>(x) * 4);
@@ -155,7 +155,7 @@ void saveHdr(const std::string& path, const Image& image) {
 }
 
 Image parseHdr(std::string_view bytes, const std::string& name) {
-  Reader reader{bytes, name};
+  RgbeReader reader{bytes, name};
   if (!bytes.starts_with("#?")) reader.refuse("it does not begin with \"#?\"");
   for (std::string_view line = reader.line(); !line.empty(); line = reader.line())
     if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
@@ -163,8 +163,8 @@ Image parseHdr(std::string_view bytes, const std::string& name) {
   int width = 0, height = 0;
   readSize(reader, width, height);
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (count > kMaxPixels) reader.refuse(fmt::format("{} x {} pixels are too many", width, height));
-  if (count * 4 / kMaxRatio > bytes.size()) reader.refuse("the file ends too early");
+  if (count > kMaxHdrPixels) reader.refuse(fmt::format("{} x {} pixels are too many", width, height));
+  if (count * 4 / kMaxHdrRatio > bytes.size()) reader.refuse("the file ends too early");
   Image image(width, height, 3);
   std::vector<std::uint8_t> row(static_cast<std::size_t>(width) * 4);
   for (int y = 0; y < height; ++y) {
@@ -184,6 +184,6 @@ Image parseHdr(std::string_view bytes, const std::string& name) {
   return image;
 }
 
-Image loadHdr(const std::string& path) { return parseHdr(readFile(path, kMaxBytes), path); }
+Image loadHdr(const std::string& path) { return parseHdr(readFile(path, kMaxHdrBytes), path); }
 
 }  // namespace welkin

@@ -14,11 +14,10 @@ namespace welkin {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
-constexpr png_uint_32 kMaxSide = 16384;
-constexpr std::size_t kMaxPixels = std::size_t{1} << 26;
-constexpr std::size_t kMaxRatio = 1032;  // deflate makes data no smaller
-constexpr const char* kFeatures = "welkin:features";
+constexpr std::size_t kMaxPngBytes = std::size_t{1} << 30;
+constexpr png_uint_32 kMaxPngSide = 16384;
+constexpr std::size_t kMaxPngPixels = std::size_t{1} << 26;
+constexpr std::size_t kMaxPngRatio = 1032;  // deflate makes data no smaller
 
 // Errors leave libpng's C frames as exceptions; they hold nothing that the structs' owners do not free. This needs
 // unwind tables, which GCC and Clang write for C too on x86-64 and AArch64.
@@ -28,16 +27,16 @@ struct Failure {
 [[noreturn]] void fail(png_structp, png_const_charp message) { throw Failure{message}; }
 void ignore(png_structp, png_const_charp) {}
 
-struct Reader {
+struct PngReader {
   png_structp png = nullptr;
   png_infop info = nullptr;
-  Reader() : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore)) {
+  PngReader() : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore)) {
     if (png) info = png_create_info_struct(png);
     if (!info) throw Failure{"out of memory"};
   }
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 };
 
 struct Writer {
@@ -78,16 +77,16 @@ void requireChunks(std::string_view bytes) {
 Image readPng(std::string_view bytes) {
   requireChunks(bytes);
   const std::size_t length = bytes.size();
-  Reader reader;
+  PngReader reader;
   png_structp png = reader.png;
-  png_set_user_limits(png, kMaxSide, kMaxSide);
+  png_set_user_limits(png, kMaxPngSide, kMaxPngSide);
   png_set_chunk_malloc_max(png, 1 << 24);
   png_set_read_fn(png, &bytes, readSome);
   png_read_info(png, reader.info);
   const png_uint_32 width = png_get_image_width(png, reader.info), height = png_get_image_height(png, reader.info);
-  if (std::size_t{width} * height > kMaxPixels)
+  if (std::size_t{width} * height > kMaxPngPixels)
     throw Failure{fmt::format("{} x {} pixels are too many", width, height)};
-  if (png_get_rowbytes(png, reader.info) * height / kMaxRatio > length) throw Failure{"the file ends too early"};
+  if (png_get_rowbytes(png, reader.info) * height / kMaxPngRatio > length) throw Failure{"the file ends too early"};
 
   png_set_expand(png);  // palette to RGB, 1 to 4 bits to 8, transparency to alpha
   if (png_get_bit_depth(png, reader.info) == 16 && std::endian::native == std::endian::little) png_set_swap(png);
@@ -106,7 +105,7 @@ Image readPng(std::string_view bytes) {
   png_textp texts = nullptr;
   const int textCount = png_get_text(png, reader.info, &texts, nullptr);
   for (int i = 0; i < textCount; ++i)
-    if (texts[i].text && std::string_view(texts[i].key) == kFeatures) image.features = texts[i].text;
+    if (texts[i].text && std::string_view(texts[i].key) == kFeaturesAttribute) image.features = texts[i].text;
   const std::size_t count = image.pixels.size();
   if (bits == 16) {
     const auto* wide = reinterpret_cast<const std::uint16_t*>(samples.data());
@@ -134,7 +133,7 @@ std::string encode(int width, int height, int channels, int bits, const std::uin
   if (!features.empty()) {
     png_text text{};
     text.compression = PNG_TEXT_COMPRESSION_NONE;
-    text.key = const_cast<png_charp>(kFeatures);
+    text.key = const_cast<png_charp>(kFeaturesAttribute);
     text.text = const_cast<png_charp>(features.c_str());
     text.text_length = features.size();
     png_set_text(png, writer.info, &text, 1);
@@ -175,7 +174,7 @@ Image parsePng(std::string_view bytes, const std::string& name) {
   }
 }
 
-Image loadPng(const std::string& path) { return parsePng(readFile(path, kMaxBytes), path); }
+Image loadPng(const std::string& path) { return parsePng(readFile(path, kMaxPngBytes), path); }
 
 void savePng(const std::string& path, int width, int height, int channels, std::span<const std::uint8_t> samples,
              const std::string& features) {

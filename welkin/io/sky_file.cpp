@@ -18,7 +18,7 @@ namespace welkin {
 
 namespace {
 
-constexpr std::size_t kMaxBytes = 1 << 20;
+constexpr std::size_t kMaxSkyBytes = 1 << 20;
 constexpr int kMaxDots = 32;
 constexpr std::int64_t kFormat = 1;
 constexpr double kLatest = 1e7;  // s, of a keyframe: as long as Scene::time goes
@@ -70,7 +70,7 @@ void refuseLongKeys(std::string_view text, const std::string& name) {
 }
 
 toml::table parseToml(std::string_view text, const std::string& name) {
-  if (text.size() > kMaxBytes) refuse(name, {}, "a sky file is at most 1 MiB long");
+  if (text.size() > kMaxSkyBytes) refuse(name, {}, "a sky file is at most 1 MiB long");
   refuseLongKeys(text, name);
   try {
     return toml::parse(text, name);
@@ -324,10 +324,10 @@ Scene parseSky(std::string_view text, const std::string& name) {
   return scene;
 }
 
-Scene loadSky(const std::string& path) { return parseSky(readFile(path, kMaxBytes + 1), path); }
+Scene loadSky(const std::string& path) { return parseSky(readFile(path, kMaxSkyBytes + 1), path); }
 
 std::vector<Keyframe> loadKeyframes(const std::string& path, const Scene& scene) {
-  const toml::table root = parseToml(readFile(path, kMaxBytes + 1), path);
+  const toml::table root = parseToml(readFile(path, kMaxSkyBytes + 1), path);
   Scene read = scene;
   Reader(read, path).readKeyframesOf(root);
   return read.keyframes;

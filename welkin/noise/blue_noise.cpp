@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 
 namespace welkin {
@@ -9,24 +10,24 @@ namespace welkin {
 namespace {
 
 constexpr float kSpread = 1.9f;  // texels
+constexpr int kReach = 11;       // texels: farther away the kernel is below a float's share of its peak
 
 // Points on a torus, and how crowded it is round every texel.
 class Pattern {
  public:
-  explicit Pattern(int size) : size_(size), kernel_(count()), crowd_(count()), set_(count()) {
-    for (int y = 0; y < size; ++y)
-      for (int x = 0; x < size; ++x) {
-        const float dx = static_cast<float>(std::min(x, size - x)), dy = static_cast<float>(std::min(y, size - y));
-        kernel_[at(x, y)] = std::exp(-(dx * dx + dy * dy) / (2.0f * kSpread * kSpread));
-      }
+  explicit Pattern(int size) : size_(size), reach_(std::min(kReach, (size - 1) / 2)), crowd_(count()), set_(count()) {
+    for (int d = 0; d <= reach_; ++d)
+      kernel_.push_back(std::exp(-static_cast<float>(d * d) / (2.0f * kSpread * kSpread)));
   }
   void put(std::size_t texel, bool on) {
     set_[texel] = on;
     const int px = static_cast<int>(texel) % size_, py = static_cast<int>(texel) / size_;
-    const float sign = on ? 1.0f : -1.0f;
-    for (int y = 0; y < size_; ++y)
-      for (int x = 0; x < size_; ++x)
-        crowd_[at(x, y)] += sign * kernel_[at((x - px + size_) % size_, (y - py + size_) % size_)];
+    for (int dy = -reach_; dy <= reach_; ++dy) {
+      const float row = (on ? 1.0f : -1.0f) * kernel_[static_cast<std::size_t>(std::abs(dy))];
+      for (int dx = -reach_; dx <= reach_; ++dx)
+        crowd_[at((px + dx + size_) % size_, (py + dy + size_) % size_)] +=
+            row * kernel_[static_cast<std::size_t>(std::abs(dx))];
+    }
   }
   std::size_t tightestCluster() const {
     return extreme(true, [](float a, float b) { return a > b; });
@@ -35,7 +36,7 @@ class Pattern {
     return extreme(false, [](float a, float b) { return a < b; });
   }
   std::size_t count() const { return static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_); }
-  bool has(std::size_t texel) const { return set_[texel]; }
+  bool has(std::size_t texel) const { return set_[texel] != 0; }
 
  private:
   std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_) + x; }
@@ -43,13 +44,13 @@ class Pattern {
   std::size_t extreme(bool on, Better better) const {
     std::size_t best = count();
     for (std::size_t i = 0; i < count(); ++i)
-      if (set_[i] == on && (best == count() || better(crowd_[i], crowd_[best]))) best = i;
+      if ((set_[i] != 0) == on && (best == count() || better(crowd_[i], crowd_[best]))) best = i;
     return best;
   }
 
-  int size_;
+  int size_, reach_;
   std::vector<float> kernel_, crowd_;
-  std::vector<bool> set_;
+  std::vector<char> set_;
 };
 
 }  // namespace

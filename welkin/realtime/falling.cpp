@@ -1,3 +1,4 @@
+#include "welkin/realtime/blocks.hpp"
 #include "welkin/realtime/falling.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@ namespace welkin::realtime {
 namespace {
 
 constexpr int kMapSize = 128, kCellsAcross = 16;
-constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kDropsBlock = 3;
 constexpr double kFlutterPeriod = 16.0;  // s, after which all flutter repeats
 
 // The uniform block "Drops".
@@ -20,8 +20,6 @@ struct DropsBlock {
   law::DropParams params;
   std::array<law::DropClass, kDropLevels * kFallClasses> classes;
 };
-
-std::string fileText(const char* path) { return std::string(shaderSource(path)); }
 
 }  // namespace
 
@@ -36,7 +34,7 @@ void FallingPass::compile(const std::string& clouds, bool lit) {
   const std::string text = clouds + (lit ? "#define LIGHT_VOLUME\n" : "");
   if (text == text_) return;
   const auto program = [&](const char* name, const char* path) {
-    return gl::Program(gl_, name, text, fileText(path), shaderSource);
+    return gl::Program(gl_, name, text, shaderText(path), shaderSource);
   };
   mapProgram_ = program("rain map", "welkin/realtime/shaders/rain_map.frag.glsl");
   lightProgram_ = program("rain light", "welkin/realtime/shaders/rain_light.frag.glsl");
@@ -103,7 +101,7 @@ const gl::Program& FallingPass::program(std::map<std::string, gl::Program>& vari
                                         const char* fragment, const char* vertex) const {
   gl::Program& found = variants[defines];
   if (!found.id())
-    found = gl::Program(gl_, "drops", defines, fileText(fragment), shaderSource, vertex ? fileText(vertex) : "");
+    found = gl::Program(gl_, "drops", defines, shaderText(fragment), shaderSource, vertex ? shaderText(vertex) : "");
   return found;
 }
 

@@ -11,8 +11,6 @@ namespace welkin::realtime {
 
 namespace {
 
-constexpr double kLeash = 0.08;       // share of a level's edge that the camera may move before it is made again
-constexpr double kUseless = 0.3;      // the same after which it is of no use
 constexpr float kSunTurn = 0.003f;    // rad that the sun may turn before
 constexpr float kSunJump = 0.02f;     // rad after which nothing known of its light is of use
 constexpr float kStretch = 0.1f;      // share of the shell's height by which it may change and leave the light of use
@@ -25,7 +23,7 @@ constexpr double kDensityWork = 6.0, kSunWork = 1.0, kStartWork = 0.5, kDownWork
 constexpr GLuint kBlockBinding = 3;
 constexpr int kUnits = 10;  // the first texture unit of these passes; those before it hold the clouds
 
-gl::Program pass(const gl::Api& gl, const std::string& name) {
+gl::Program lightPass(const gl::Api& gl, const std::string& name) {
   const std::string path = "welkin/realtime/shaders/" + name + ".frag.glsl";
   gl::Program program(gl, name, "", std::string(shaderSource(path)), shaderSource);
   program.bindBlock("Volume", kBlockBinding);
@@ -35,9 +33,9 @@ gl::Program pass(const gl::Api& gl, const std::string& name) {
 }  // namespace
 
 LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
-    : gl_(gl), preset_(preset), sunPass_(pass(gl, "light_sun")), startPass_(pass(gl, "light_start")),
-      diffusionPass_(pass(gl, "light_diffusion")), columnPass_(pass(gl, "light_column")),
-      belowPass_(pass(gl, "light_below")), block_(gl) {
+    : gl_(gl), preset_(preset), sunPass_(lightPass(gl, "light_sun")), startPass_(lightPass(gl, "light_start")),
+      diffusionPass_(lightPass(gl, "light_diffusion")), columnPass_(lightPass(gl, "light_column")),
+      belowPass_(lightPass(gl, "light_below")), block_(gl) {
   const bool small = preset == QualityPreset::low || preset == QualityPreset::medium;
   extent_ = {small ? 64 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
   slices_ = small ? 19 : 30;

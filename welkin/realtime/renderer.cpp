@@ -1,4 +1,5 @@
 #include "welkin/density/classical/clouds.hpp"
+#include "welkin/realtime/blocks.hpp"
 #include "welkin/realtime/renderer.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +37,6 @@ constexpr int kBlueNoiseSize = 64;
 constexpr int kMostWait = 16;               // frames
 constexpr int kAirShadePixels = 16;         // edge in the picture of a texel of the shade in the air
 constexpr std::size_t kMaxVoxelClouds = 8;  // grids, classical and hero clouds together
-constexpr GLuint kFrameBlock = 0, kLayersBlock = 1, kMarchBlock = 2, kNightBlock = 3, kLightningBlock = 4;
 
 // The uniform block "Layers" of the passes that march through clouds.
 struct LayersBlock {
@@ -64,8 +64,6 @@ double fetchesPerSample(const Scene& scene, std::size_t grids) {
 }
 // Of one ray: the host's depth, sunlight at three heights, air before cloud and ground; a sheet takes three more.
 constexpr double kFetchesPerRay = 8.0;
-
-std::string fileText(const char* path) { return std::string(shaderSource(path)); }
 
 glm::dvec3 eastNorthUp(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, -p.z, p.y); }
 glm::dvec3 hostAxes(const glm::dvec3& p, UpAxis up) { return up == UpAxis::z ? p : glm::dvec3(p.x, p.z, -p.y); }
@@ -157,14 +155,14 @@ struct Renderer::State {
                         texel.data());
     blueNoise = gl::Texture(gl, gl::Texture::Kind::plane, gl::kR16F, kBlueNoiseSize, kBlueNoiseSize, 0,
                             gl::Filter::nearest, gl::Addressing::repeat, welkin::blueNoise(kBlueNoiseSize, 1).data());
-    const auto resolveText = fileText("welkin/realtime/shaders/resolve.frag.glsl");
+    const auto resolveText = shaderText("welkin/realtime/shaders/resolve.frag.glsl");
     resolve = gl::Program(gl, "resolve", "", resolveText, shaderSource);
     resolveAveraged = gl::Program(gl, "resolve, averaged", "#define AVERAGE\n", resolveText, shaderSource);
     resolveFirstRound = gl::Program(gl, "resolve, first round", "#define FIRST_ROUND\n", resolveText, shaderSource);
     weatherProgram =
-        gl::Program(gl, "weather", "", fileText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
-    airShadeProgram =
-        gl::Program(gl, "shade in the air", "", fileText("welkin/realtime/shaders/air_shade.frag.glsl"), shaderSource);
+        gl::Program(gl, "weather", "", shaderText("welkin/realtime/shaders/weather.frag.glsl"), shaderSource);
+    airShadeProgram = gl::Program(gl, "shade in the air", "", shaderText("welkin/realtime/shaders/air_shade.frag.glsl"),
+                                  shaderSource);
   }
 
   static bool replacesNoise(const CustomTextures& custom) {
@@ -340,14 +338,14 @@ void Renderer::State::makeMarch() {
   const std::string text = defines + (scene.lightning.rate > 0.0f ? "#define LIGHTNING\n" : "");
   if (text == marchDefines) return;
   if (lit()) {
-    lightProgram = gl::Program(gl, "light density", clouds, fileText("welkin/realtime/shaders/light_density.frag.glsl"),
-                               shaderSource);
+    lightProgram = gl::Program(gl, "light density", clouds,
+                               shaderText("welkin/realtime/shaders/light_density.frag.glsl"), shaderSource);
     sheetProgram = scene.sheets.empty()
                        ? gl::Program()
                        : gl::Program(gl, "light sheets", clouds,
-                                     fileText("welkin/realtime/shaders/light_sheets.frag.glsl"), shaderSource);
+                                     shaderText("welkin/realtime/shaders/light_sheets.frag.glsl"), shaderSource);
   }
-  march = gl::Program(gl, "march", text, fileText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
+  march = gl::Program(gl, "march", text, shaderText("welkin/realtime/shaders/march.frag.glsl"), shaderSource);
   marchDefines = text;
 }
 
@@ -717,7 +715,7 @@ const gl::Program& Renderer::State::compositeProgram(const Frame& frame, const F
   const auto found = composites.find(defines);
   if (found != composites.end()) return found->second;
   return composites
-      .emplace(defines, gl::Program(gl, "composite", defines, fileText("welkin/realtime/shaders/composite.frag.glsl"),
+      .emplace(defines, gl::Program(gl, "composite", defines, shaderText("welkin/realtime/shaders/composite.frag.glsl"),
                                     shaderSource))
       .first->second;
 }

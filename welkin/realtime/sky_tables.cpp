@@ -12,12 +12,12 @@ namespace welkin::realtime {
 
 namespace {
 
-constexpr GLuint kBlockBinding = 0;
+constexpr GLuint kSkyBlock = 0;
 
-gl::Program pass(const gl::Api& gl, const std::string& name) {
+gl::Program skyPass(const gl::Api& gl, const std::string& name) {
   const std::string path = "welkin/realtime/shaders/" + name + ".frag.glsl";
   gl::Program program(gl, name, "", std::string(shaderSource(path)), shaderSource);
-  program.bindBlock("SkyBlock", kBlockBinding);
+  program.bindBlock("SkyBlock", kSkyBlock);
   return program;
 }
 
@@ -61,9 +61,9 @@ struct SkyTables::Input {
 };
 
 SkyTables::SkyTables(const gl::Api& gl)
-    : gl_(gl), framebuffer_(gl), vertices_(gl), block_(gl), transmittancePass_(pass(gl, "sky_transmittance")),
-      multiScatteringPass_(pass(gl, "sky_multi_scattering")), skyViewPass_(pass(gl, "sky_view")),
-      aerialPass_(pass(gl, "sky_aerial")),
+    : gl_(gl), framebuffer_(gl), vertices_(gl), block_(gl), transmittancePass_(skyPass(gl, "sky_transmittance")),
+      multiScatteringPass_(skyPass(gl, "sky_multi_scattering")), skyViewPass_(skyPass(gl, "sky_view")),
+      aerialPass_(skyPass(gl, "sky_aerial")),
       transmittance_(plane(gl, gl::kRgba16F, law::kTransmittanceWidth, law::kTransmittanceHeight)),
       multiScattering_(plane(gl, gl::kRgba16F, law::kMultiScatteringSize, law::kMultiScatteringSize)),
       skyView_(plane(gl, gl::kRgba16F, law::kSkyViewWidth, law::kSkyViewHeight)), aerialInscatter_(volume(gl)),
@@ -87,7 +87,7 @@ void SkyTables::update(const Atmosphere& atmosphere, const SkyLights& lights, do
   user_ = user;
   userRevision_ = revision;
   block_.upload(&params_, sizeof(params_));
-  block_.bind(kBlockBinding);
+  block_.bind(kSkyBlock);
   gl_.BindVertexArray(vertices_.id());
   if (airChanged) fillAir();
   fillSky(user);

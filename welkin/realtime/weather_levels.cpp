@@ -9,9 +9,7 @@
 namespace welkin::realtime {
 
 namespace {
-constexpr double kLeash = 0.08;   // share of a level's edge that the camera may move before it is drawn again
-constexpr double kUseless = 0.3;  // the same after which it is of no use
-constexpr int kCell = 4;          // texels of a cell of the bounds
+constexpr int kCell = 4;  // texels of a cell of the bounds
 }  // namespace
 
 WeatherExtent weatherExtent(QualityPreset preset) {

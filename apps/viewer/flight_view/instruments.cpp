@@ -26,9 +26,9 @@ ImVec2 on(const ImVec2& centre, float radius, float angle) {
   return {centre.x + radius * std::sin(angle), centre.y - radius * std::cos(angle)};
 }
 
-class Dial {
+class Gauge {
  public:
-  Dial(ImDrawList* list, const ImVec2& centre, float radius) : list_(list), c_(centre), r_(radius) {
+  Gauge(ImDrawList* list, const ImVec2& centre, float radius) : list_(list), c_(centre), r_(radius) {
     list_->AddCircleFilled(c_, r_, kFace, 48);
     list_->AddCircle(c_, r_, kRim, 48, std::max(1.0f, 0.05f * r_));
   }
@@ -64,7 +64,7 @@ class Dial {
   float r_;
 };
 
-void airspeed(const Dial& d, const Flight& flight) {
+void airspeed(const Gauge& d, const Flight& flight) {
   // 0 at the top, 220 knots after 330 degrees.
   const auto angle = [](double knots) {
     return static_cast<float>(std::clamp(knots, 0.0, 222.0) / 240.0) * 2.0f * kPiFloat;
@@ -80,7 +80,7 @@ void airspeed(const Dial& d, const Flight& flight) {
 }
 
 // The disc of the sky behind a horizon, which lies `height` below the centre (in radii) and turned by `bank`.
-void attitude(const Dial& d, const Attitude& now) {
+void attitude(const Gauge& d, const Attitude& now) {
   const float r = 0.9f * d.radius(), bank = static_cast<float>(now.bank);
   const float step =
       r / 32.0f * static_cast<float>(180.0 / std::numbers::pi);  // pixels a radian: 32 degrees to the rim
@@ -120,7 +120,7 @@ void attitude(const Dial& d, const Attitude& now) {
   d.list()->AddCircleFilled(c, w, kAmber, 12);
 }
 
-void altimeter(const Dial& d, const Aircraft& aircraft) {
+void altimeter(const Gauge& d, const Aircraft& aircraft) {
   const double feet = aircraft.position.z / kFoot;
   for (int i = 0; i < 50; ++i) d.tick(2.0f * kPiFloat * static_cast<float>(i) / 50.0f, i % 5 == 0);
   for (int i = 0; i < 10; ++i) d.label(2.0f * kPiFloat * static_cast<float>(i) / 10.0f, fmt::format("{}", i));
@@ -129,7 +129,7 @@ void altimeter(const Dial& d, const Aircraft& aircraft) {
   d.needle(static_cast<float>(std::fmod(feet, 1000.0) / 1000.0) * 2.0f * kPiFloat, 0.84f);
 }
 
-void turnAndSlip(const Dial& d, const Aircraft& aircraft, const Attitude& now) {
+void turnAndSlip(const Gauge& d, const Aircraft& aircraft, const Attitude& now) {
   const double rate = (aircraft.rates.y * std::sin(now.bank) + aircraft.rates.z * std::cos(now.bank)) /
                       std::max(std::abs(std::cos(now.pitch)), 0.1);
   // Two minutes for a whole turn stand at 25 degrees.
@@ -152,7 +152,7 @@ void turnAndSlip(const Dial& d, const Aircraft& aircraft, const Attitude& now) {
   d.list()->AddCircleFilled({c.x + 0.3f * r * ball, 0.5f * (low.y + high.y)}, 0.085f * r, kWhite, 16);
 }
 
-void compass(const Dial& d, const Attitude& now) {
+void compass(const Gauge& d, const Attitude& now) {
   const auto heading = static_cast<float>(now.heading);
   for (int i = 0; i < 36; ++i) d.tick(static_cast<float>(i) * kPiFloat / 18.0f - heading, i % 3 == 0);
   const char* const names[] = {"N", "3", "6", "E", "12", "15", "S", "21", "24", "W", "30", "33"};
@@ -164,7 +164,7 @@ void compass(const Dial& d, const Attitude& now) {
          fmt::format("{:03.0f}", std::fmod(heading * 180.0f / kPiFloat + 0.5f, 360.0f) - 0.5f), 0.24f, kAmber);
 }
 
-void verticalSpeed(const Dial& d, double climb) {
+void verticalSpeed(const Gauge& d, double climb) {
   // Thousands of feet a minute; 0 points left, 3 lies 170 degrees on.
   const auto angle = [](double thousands) {
     return static_cast<float>(-0.5 * std::numbers::pi +
@@ -229,7 +229,7 @@ void drawInstruments(const Flight& flight, const ImVec2& low, const ImVec2& high
   const auto next = [&] {
     const ImVec2 centre(x, middle);
     x += cell;
-    return Dial(list, centre, radius);
+    return Gauge(list, centre, radius);
   };
   airspeed(next(), flight);
   attitude(next(), now);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kStraightDown = static_cast<float>(-0.5 * kPi), kFlattest = static_cast<float>(-12.0 * kPi / 180.0);
 constexpr double kLowestMap = 500.0, kHighestMap = 100e3;  // m above the ground
-constexpr double kFarthest = 1e7;                          // m from the sky's origin
+constexpr double kFarthestMap = 1e7;                       // m from the sky's origin
 
 // Metres from the camera to the ground in the middle of the picture.
 double distanceOf(const Camera& camera) {
@@ -28,7 +28,7 @@ void hang(Camera& camera, const glm::dvec2& point, double distance) {
   const double slant = std::sin(-static_cast<double>(camera.pitch));
   distance = std::clamp(distance, kLowestMap / slant, kHighestMap / slant);
   const glm::dvec3 forward = cameraAxes(camera)[2];
-  camera.position = glm::dvec3(glm::clamp(point, -kFarthest, kFarthest), 0.0) - forward * distance;
+  camera.position = glm::dvec3(glm::clamp(point, -kFarthestMap, kFarthestMap), 0.0) - forward * distance;
   camera.position.z = std::clamp(camera.position.z, kLowestMap, kHighestMap);
 }
 

@@ -61,7 +61,7 @@ void paint(Workbench& bench, const glm::dvec2& place) {
     bench.document.paintWeather(desk.layer, std::move(next));
 }
 
-struct Canvas {
+struct MapCanvas {
   ImVec2 corner{};
   float edge = 1.0f;
   ImVec2 pointOf(const WeatherView& view, const glm::dvec2& place) const {
@@ -74,7 +74,7 @@ struct Canvas {
 };
 
 // The camera and the way it looks, and the scale.
-void drawMarks(const Workbench& bench, const Canvas& canvas) {
+void drawMarks(const Workbench& bench, const MapCanvas& canvas) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const Camera& camera = bench.document.scene().camera;
   const WeatherView& view = bench.weather.view;
@@ -105,7 +105,7 @@ void drawMap(Workbench& bench) {
   WeatherDesk& desk = bench.weather;
   // As high as the controls below leave room for.
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  Canvas canvas;
+  MapCanvas canvas;
   canvas.edge = std::max(std::min(room.x, room.y - 13.0f * ImGui::GetFrameHeightWithSpacing()),
                          std::max(10.0f * ImGui::GetFontSize(), 1.0f));
   canvas.corner = ImGui::GetCursorScreenPos();
