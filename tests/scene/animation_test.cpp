@@ -179,6 +179,7 @@ TEST(Animation, KeyframesCanBeTakenOut) {
   dropKeyframes(scene, "sun.elevation");
   EXPECT_FALSE(hasKeyframes(scene, "sun."));
   EXPECT_TRUE(hasKeyframes(scene, "camera.heading"));
+  EXPECT_FALSE(hasKeyframes(scene, "camera.head")) << "another parameter";
   dropKeyframes(scene, "quality.preset");
   EXPECT_EQ(scene.keyframes.size(), 1u);
 }

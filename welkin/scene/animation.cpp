@@ -188,7 +188,9 @@ void dropKeyframes(Scene& scene, std::string_view path) {
 
 bool hasKeyframes(const Scene& scene, std::string_view path) {
   return std::any_of(scene.keyframes.begin(), scene.keyframes.end(), [&](const Keyframe& k) {
-    return std::any_of(k.values.begin(), k.values.end(), [&](const KeyValue& v) { return v.path.starts_with(path); });
+    return std::any_of(k.values.begin(), k.values.end(), [&](const KeyValue& v) {
+      return v.path == path || (path.ends_with('.') && v.path.starts_with(path));
+    });
   });
 }
 

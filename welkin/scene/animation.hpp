@@ -18,7 +18,7 @@ Scene sceneAt(const Scene& scene, double time);
 // Takes a parameter's keyframes out; those of all that it sets with "quality.preset" and a hero cloud's species.
 void dropKeyframes(Scene& scene, std::string_view path);
 
-// Whether keyframes set a parameter whose path begins so.
+// Whether keyframes set the parameter of that path, or one of a section ("sun.").
 bool hasKeyframes(const Scene& scene, std::string_view path);
 
 // Lets the day go on by so many seconds: sun, moon and stars turn about the pole of the sun's latitude, or, where the
