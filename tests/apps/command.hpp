@@ -39,6 +39,12 @@ inline Outcome run(const std::string& arguments, const std::string& environment 
   return outcome;
 }
 
+// Whether the command was built with a window.
+inline bool hasViewer() {
+  static const bool has = run("view --headless").err.find("built without a window") == std::string::npos;
+  return has;
+}
+
 // For `environment`: files may grow to so many half kilobytes, then the disk is full.
 inline std::string fullDisk(int blocks) { return "ulimit -f " + std::to_string(blocks) + "; trap '' XFSZ;"; }
 

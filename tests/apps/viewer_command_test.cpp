@@ -16,12 +16,10 @@ namespace {
 using test::Outcome;
 using test::slurp;
 
-const bool kHasViewer = test::run("view --headless").err.find("built without a window") == std::string::npos;
-
 class ViewCommand : public testing::Test {
  protected:
   void SetUp() override {
-    if (!kHasViewer) GTEST_SKIP() << "built without SDL2 or Dear ImGui";
+    if (!test::hasViewer()) GTEST_SKIP() << "built without SDL2 or Dear ImGui";
     folder_ = std::filesystem::temp_directory_path() / ("welkin_view_" + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
   }
