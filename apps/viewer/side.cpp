@@ -57,27 +57,37 @@ void Viewer::drawPanels() {
   ImGui::GetBackgroundDrawList()->AddLine({x, top}, {x, bottom}, IM_COL32(255, 255, 255, 200), 1.5f);
 }
 
+// In as many rows as they need: a bar that scrolls would hide half of them.
 void Viewer::drawTabs() {
-  if (!ImGui::BeginTabBar("##tabs", ImGuiTabBarFlags_FittingPolicyScroll)) return;
-  for (const TabInfo& info : kTabs) {
+  const auto fits = [&](Tab tab) {
     // The aircraft is the camera, and the reference knows nothing of it.
-    if (flight_ && (info.tab == Tab::camera || info.tab == Tab::reference)) continue;
-    if (bench_.mapShown && info.tab == Tab::reference) continue;
-    const bool wanted = bench_.wantedTab == info.tab;
-    const bool shown =
-        ImGui::BeginTabItem(info.title, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : ImGuiTabItemFlags_None);
-    interface_.items.mark(std::string("tab ") + info.title);
-    if (!shown) continue;
-    // A tab that is asked for is there in the next frame; what stands in its place, the gallery at first, would begin
-    // its work in vain.
-    if (!bench_.wantedTab || wanted) {
-      bench_.tab = info.tab;
-      info.draw(bench_);
-    }
-    ImGui::EndTabItem();
-  }
-  ImGui::EndTabBar();
+    if (flight_ && (tab == Tab::camera || tab == Tab::reference)) return false;
+    return !(bench_.mapShown && tab == Tab::reference);
+  };
+  if (bench_.wantedTab && fits(*bench_.wantedTab)) bench_.tab = *bench_.wantedTab;
   bench_.wantedTab.reset();
+  if (!fits(bench_.tab)) bench_.tab = Tab::parameters;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float right = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+  bool first = true;
+  for (const TabInfo& info : kTabs) {
+    if (!fits(info.tab)) continue;
+    const float width = ImGui::CalcTextSize(info.title).x + 2.0f * style.FramePadding.x;
+    if (!first && ImGui::GetItemRectMax().x + style.ItemInnerSpacing.x + width < right)
+      ImGui::SameLine(0.0f, style.ItemInnerSpacing.x);
+    first = false;
+    ImGui::PushStyleColor(ImGuiCol_Button, style.Colors[info.tab == bench_.tab ? ImGuiCol_TabActive : ImGuiCol_Tab]);
+    if (ImGui::Button(info.title)) bench_.tab = info.tab;
+    ImGui::PopStyleColor();
+    interface_.items.mark(std::string("tab ") + info.title);
+  }
+  ImGui::Separator();
+  for (const TabInfo& info : kTabs)
+    if (info.tab == bench_.tab) {
+      ImGui::PushID(info.title);
+      info.draw(bench_);
+      ImGui::PopID();
+    }
 }
 
 }  // namespace welkin::viewer

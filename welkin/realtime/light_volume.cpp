@@ -35,7 +35,8 @@ gl::Program lightPass(const gl::Api& gl, const std::string& name) {
 LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     : gl_(gl), preset_(preset), sunPass_(lightPass(gl, "light_sun")), startPass_(lightPass(gl, "light_start")),
       diffusionPass_(lightPass(gl, "light_diffusion")), columnPass_(lightPass(gl, "light_column")),
-      belowPass_(lightPass(gl, "light_below")), block_(gl) {
+      belowPass_(lightPass(gl, "light_below")), facesPass_(lightPass(gl, "light_faces")),
+      sidesPass_(lightPass(gl, "light_sides")), block_(gl) {
   const bool small = preset == QualityPreset::low || preset == QualityPreset::medium;
   extent_ = {small ? 64 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
   slices_ = small ? 19 : 30;
@@ -57,6 +58,9 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
   light_ = volume(gl::kRg16F, 1);
   scalarSlice_ = {plane(gl::kR16F), plane(gl::kR16F)};
   lightSlice_ = {plane(gl::kRg16F), plane(gl::kRg16F)};
+  for (gl::Texture* row : {&faces_, &sides_})
+    *row = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba16F, slices_, 1, 0, gl::Filter::nearest,
+                       gl::Addressing::clamp, nullptr);
 }
 
 std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() const {
@@ -67,6 +71,8 @@ std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() 
           {"light volume: steps", &steps_},
           {"light volume: share", &share_},
           {"light volume: light", &light_},
+          {"light volume: faces", &faces_},
+          {"light volume: sides", &sides_},
           {"light volume: slice a", &scalarSlice_[0]},
           {"light volume: slice b", &scalarSlice_[1]},
           {"light volume: light slice a", &lightSlice_[0]},
@@ -328,8 +334,28 @@ void LightVolume::start(gl::Framebuffer& framebuffer, int count) {
   }
 }
 
+// What the clouds of each slice and the air between them exchange, in the mean over the level.
+void LightVolume::lightBetween(gl::Framebuffer& framebuffer) {
+  const auto draw = [&](const gl::Program& program, const gl::Texture& row) {
+    const gl::Texture* const targets[] = {&row};
+    framebuffer.target(targets);
+    slice(program, 0);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  };
+  use(facesPass_);
+  bind(facesPass_, "uDiffuse", light_, kUnits + 1);
+  bind(facesPass_, "uSides", sides_, kUnits + 2);
+  gl_.Uniform1f(facesPass_.uniform("uKnown"), job_->round > 0 ? 1.0f : 0.0f);
+  draw(facesPass_, faces_);
+  use(sidesPass_);
+  bind(sidesPass_, "uFaces", faces_, kUnits + 1);
+  draw(sidesPass_, sides_);
+}
+
 void LightVolume::diffuseDown(gl::Framebuffer& framebuffer, int count) {
+  if (job_->slice == 0) lightBetween(framebuffer);
   use(diffusionPass_);
+  bind(diffusionPass_, "uSides", sides_, kUnits + 6);
   bind(diffusionPass_, "uDiffuse", light_, kUnits + 1);
   bind(diffusionPass_, "uSun", steps_, kUnits + 2);
   const bool alone = job_->level == extent_.levels - 1 && !job_->known && job_->round == 0;
@@ -370,6 +396,7 @@ void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count) {
 void LightVolume::carryDown(gl::Framebuffer& framebuffer) {
   use(belowPass_);
   bind(belowPass_, "uDiffuse", light_, kUnits + 1);
+  bind(belowPass_, "uFaces", faces_, kUnits + 2);
   for (int s = slices_ - 1; s >= 0; --s) passOn(belowPass_, "uAbove", framebuffer, s);
 }
 

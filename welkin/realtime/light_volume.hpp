@@ -84,6 +84,7 @@ class LightVolume {
   void fillSheets(const gl::Program& program, gl::Framebuffer& framebuffer);
   void fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& framebuffer, int count, int doublings);
   void start(gl::Framebuffer& framebuffer, int count);
+  void lightBetween(gl::Framebuffer& framebuffer);
   void diffuseDown(gl::Framebuffer& framebuffer, int count);
   void passOn(const gl::Program& program, const char* before, gl::Framebuffer& framebuffer, int s);
   void diffuseUp(gl::Framebuffer& framebuffer, int count);
@@ -102,10 +103,10 @@ class LightVolume {
   int slices_;                 // of a level, from the bottom of the clouds to their top
   gl::Texture sun_, diffuse_;  // all levels
   // Of the level that is being made: light_density, light_sheets, light_sun (whose last doubling ends in steps_),
-  // light_diffusion.
-  gl::Texture density_, sheets_, steps_, share_, light_;
+  // light_diffusion; light_faces and light_sides, a texel for a slice.
+  gl::Texture density_, sheets_, steps_, share_, light_, faces_, sides_;
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
-  gl::Program sunPass_, startPass_, diffusionPass_, columnPass_, belowPass_;
+  gl::Program sunPass_, startPass_, diffusionPass_, columnPass_, belowPass_, facesPass_, sidesPass_;
   gl::UniformBuffer block_;
   std::vector<Level> levels_;
   std::optional<Job> job_;

@@ -99,26 +99,37 @@ vec3 details(vec2 p, float finest, float pixel) {
 #ifdef LAND
 float random2(vec2 cell) { return unitFromHash(hashCell2(int(cell.x), int(cell.y), 9u)); }
 
-// Fields: rows of parcels, turned a little from one square mile to the next. Where miles meet a brook winds.
-vec3 fields(vec2 p, float pixel) {
-  vec2 winding = p + 130.0 * (sin(p.yx / vec2(430.0, 390.0)) + 0.45 * sin(p.yx / vec2(167.0, 181.0) + 1.3));
-  vec2 mile = floor(winding / 1700.0), within = fract(winding / 1700.0);
-  float turn = 1.5 * random2(mile);
-  vec2 q = mat2(cos(turn), -sin(turn), sin(turn), cos(turn)) * (p - 1700.0 * mile);
-  vec2 size = mix(vec2(150.0, 90.0), vec2(420.0, 240.0), vec2(random2(mile + 31.0), random2(mile + 57.0)));
+// A parcel at q, which counts from the corner of its square mile, and how far its edges are.
+vec3 parcel(vec2 q, vec2 size, vec2 mile, out vec2 edge) {
   q.x += size.x * random2(vec2(floor(q.y / size.y), mile.x + 91.0));
-  vec2 cell = floor(q / size);
+  vec2 cell = floor(q / size), within = q - cell * size;
   float a = random2(cell + 17.0 * mile), b = random2(cell.yx + 29.0 * mile + 5.0);
   vec3 meadow = vec3(0.055, 0.088, 0.026), stubble = vec3(0.2, 0.165, 0.075), corn = vec3(0.075, 0.1, 0.03);
   vec3 earth = vec3(0.125, 0.09, 0.06);
-  vec3 colour = a < 0.45 ? meadow : a < 0.68 ? corn : a < 0.87 ? stubble : earth;
-  colour *= 0.8 + 0.4 * b;
-  vec2 edge = min(fract(q / size), 1.0 - fract(q / size)) * size;
-  float hedge = 1.0 - smoothstep(3.0, 5.0 + pixel, min(edge.x, edge.y));
+  edge = mix(-within, size - within, step(0.5 * size, within));
+  return (a < 0.45 ? meadow : a < 0.68 ? corn : a < 0.87 ? stubble : earth) * (0.8 + 0.4 * b);
+}
+
+// Fields: rows of parcels, turned a little from one square mile to the next. Where miles meet a brook winds. An edge is as
+// soft as the pixel is wide there, which covers `across` (from pixel to pixel, and from row to row).
+vec3 fields(vec2 p, float pixel, mat2 across) {
+  vec2 winding = p + 130.0 * (sin(p.yx / vec2(430.0, 390.0)) + 0.45 * sin(p.yx / vec2(167.0, 181.0) + 1.3));
+  vec2 mile = floor(winding / 1700.0), within = fract(winding / 1700.0);
+  float turn = 1.5 * random2(mile);
+  mat2 turned = mat2(cos(turn), -sin(turn), sin(turn), cos(turn));
+  vec2 q = turned * (p - 1700.0 * mile), edge, other;
+  vec2 size = mix(vec2(150.0, 90.0), vec2(420.0, 240.0), vec2(random2(mile + 31.0), random2(mile + 57.0)));
+  vec3 colour = parcel(q, size, mile, edge);
+  mat2 reach = turned * across;
+  vec2 wide = max(abs(reach[0]) + abs(reach[1]), vec2(1e-3)), share = clamp(0.5 - abs(edge) / wide, 0.0, 0.5);
+  vec2 beyond = share.x > share.y ? vec2(edge.x + 0.01 * sign(edge.x), 0.0) : vec2(0.0, edge.y + 0.01 * sign(edge.y));
+  colour = mix(colour, parcel(q + beyond, size, mile, other), max(share.x, share.y));
+  float hedge = 1.0 - smoothstep(3.0, 5.0 + pixel, min(abs(edge.x), abs(edge.y)));
   vec2 toBrook = min(within, 1.0 - within) * 1700.0;
   hedge = max(hedge, 1.0 - smoothstep(6.0, 11.0 + pixel, min(toBrook.x, toBrook.y)));
   colour = mix(colour, vec3(0.03, 0.045, 0.018), 0.8 * hedge * clamp(6.0 / pixel, 0.0, 1.0));
-  return mix(colour, vec3(0.095, 0.1, 0.04), smoothstep(60.0, 300.0, pixel));
+  float coarse = max(pixel, 0.5 * max(wide.x, wide.y));
+  return mix(colour, vec3(0.095, 0.1, 0.04), smoothstep(60.0, 300.0, coarse));
 }
 
 #endif
@@ -203,7 +214,7 @@ float splashes(vec2 p, float pixel, float rate) {
 }
 #endif
 
-vec3 groundColour(vec4 land, vec2 p, vec3 fromEye, float distance_, float pixel, WelkinLight light) {
+vec3 groundColour(vec4 land, vec2 p, mat2 across, vec3 fromEye, float distance_, float pixel, WelkinLight light) {
   vec3 detail = details(p, 14.0 * max(1.0, distance_ / 900.0), pixel);
   float steep = length(land.yz);
   float wild = smoothstep(0.12, 0.5, steep + land.x * 0.0001);
@@ -214,7 +225,7 @@ vec3 groundColour(vec4 land, vec2 p, vec3 fromEye, float distance_, float pixel,
 #endif
   vec3 normal = normalize(vec3(-land.yz - even * mix(0.035, 0.3, wild) * detail.xy, 1.0));
   float tree = land.w + 0.35 * detail.z;
-  vec3 colour = fields(p, pixel) * (1.0 + 0.25 * detail.z);
+  vec3 colour = fields(p, pixel, across) * (1.0 + 0.25 * detail.z);
   vec3 wood = vec3(0.024, 0.038, 0.015) * (1.0 + 0.5 * detail.z);
   vec3 grass = vec3(0.07, 0.085, 0.032) * (1.0 + 0.35 * detail.z);
   vec3 heath = vec3(0.105, 0.095, 0.055) * (1.0 + 0.35 * detail.z);
@@ -269,7 +280,7 @@ void main() {
 #endif
   vec3 radiance = vec3(0.0);
 #ifdef LAND
-  radiance = groundColour(land, p, fromEye, distance_, pixel, light);
+  radiance = groundColour(land, p, mat2(dFdx(p), dFdy(p)), fromEye, distance_, pixel, light);
 #endif
 #ifdef SEA
   radiance = mix(radiance, seaColour(p, distance_, pixel, light, toEye), smoothstep(0.4, -0.4, land.x));

@@ -5,6 +5,7 @@
 
 uniform sampler3D uDiffuse;
 uniform sampler2D uAbove;  // the slice above
+uniform sampler2D uFaces;  // light_faces.frag.glsl
 
 layout(location = 0) out vec4 oLight;
 
@@ -19,6 +20,15 @@ void main() {
     vec2 above = leaving(texelFetch(uAbove, cell.xy, 0).xy, densityAt(cell + ivec3(0, 0, 1)));
     light = mix(light, above, exp(-kClearing * own));
   }
-  if (cell.z == 0) light = leaving(light, own);
+  if (cell.z == 0) {
+    // The ground sees the clouds' sides too, the lower the more: as light_sides.frag.glsl, but for level ground.
+    light = leaving(light, own);
+    vec3 met = vec3(0.0);
+    for (int s = 0; s < int(uVolume.slices); ++s) {
+      vec3 face = texelFetch(uFaces, ivec2(s, 0), 0).xyz;
+      met += vec3(face.xy * face.z, face.z);
+    }
+    light = mix(0.5 * met.xy / max(met.z, 1e-4), light, pow(1.0 + 0.95 * met.z, -1.5));
+  }
   oLight = vec4(light, 0.0, 1.0);
 }

@@ -6,6 +6,7 @@
 uniform sampler3D uSun;      // optical depth toward the sun
 uniform sampler3D uDiffuse;  // the light that is known so far
 uniform sampler2D uShareAbove, uLightAbove;  // P and Q of the slice above
+uniform sampler2D uSides;    // light_sides.frag.glsl
 uniform float uSideways;     // 0 where nothing is known of neighbours yet: columns stand alone
 
 in vec2 vUv;
@@ -21,12 +22,13 @@ void main() {
   float width = uLevel.z / uLevel.w;
   vec2 sum = vec2(0.0);
   float weights = 0.0;
-  // Outside are the sky above, the ground below, half of each at the sides.
+  // Outside are the sky above, the ground below, at the sides the two and other clouds.
+  vec2 beside = texelFetch(uSides, ivec2(cell.z, 0), 0).xy;
   for (int i = 0; i < 4; ++i) {
     ivec3 at = ivec3(clamp(cell.xy + ivec2(i == 0 ? -1 : i == 1 ? 1 : 0, i == 2 ? -1 : i == 3 ? 1 : 0), 0, last), cell.z);
     vec2 way = exchange(own, densityAt(at), width);
     way.x *= uSideways;
-    sum += way.x * texelFetch(uDiffuse, at, 0).xy + vec2(0.0, 0.5 * way.y);
+    sum += way.x * texelFetch(uDiffuse, at, 0).xy + way.y * beside;
     weights += way.x + way.y;
   }
   vec2 up = exchange(own, cell.z == top ? 0.0 : densityAt(cell + ivec3(0, 0, 1)), uSlice.y);
@@ -40,9 +42,9 @@ void main() {
   weights += down.x + down.y;
   // Sunlight that loses its way in this cell: the mean over its depth of an exponential that is known in its middle, with
   // half of the cell before it at least.
-  float reduced = kReduced * texelFetch(uDensity, cell, 0).y;
+  float reduced = kSpreading * texelFetch(uDensity, cell, 0).y;
   float half_ = max(0.5 * reduced * min(width, uSlice.y), 0.01);
-  float tau = kReduced * texelFetch(uSun, cell, 0).x;
+  float tau = kSpreading * texelFetch(uSun, cell, 0).x;
   sum.x += reduced * exp(half_ - max(tau, half_)) * (1.0 - exp(-2.0 * half_)) / (2.0 * half_);
   oLight = vec4(sum / weights, 0.0, 1.0);
   oShare = vec4(down.x / weights);
