@@ -34,15 +34,9 @@ Json describeOpenGl(gl::ContextKind kind) {
     GLint side = 0, volume = 0;
     api.GetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
     api.GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &volume);
-    const std::string renderer = text(GL_RENDERER);
-    return {
-        {"available", true},
-        {"vendor", text(GL_VENDOR)},
-        {"renderer", renderer},
-        {"version", text(GL_VERSION)},
-        {"max_texture_size", side},
-        {"max_3d_texture_size", volume},
-        {"software", renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos}};
+    return {{"available", true},           {"vendor", text(GL_VENDOR)}, {"renderer", api.driver()},
+            {"version", text(GL_VERSION)}, {"max_texture_size", side},  {"max_3d_texture_size", volume},
+            {"software", api.software()}};
   } catch (const Error& e) {
     return {{"available", false}, {"reason", e.what()}};
   }

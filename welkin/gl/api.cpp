@@ -55,6 +55,16 @@ bool Api::hasExtension(const char* name) const {
   return false;
 }
 
+std::string Api::driver() const {
+  const GLubyte* text = GetString(GL_RENDERER);
+  return text ? reinterpret_cast<const char*>(text) : "unknown";
+}
+
+bool Api::software() const {
+  const std::string name = driver();
+  return name.find("llvmpipe") != std::string::npos || name.find("softpipe") != std::string::npos;
+}
+
 void Api::check(const char* doing) const {
   const GLenum error = GetError();
   if (error != GL_NO_ERROR)

@@ -3,6 +3,8 @@
 // public header.
 #include <GL/glcorearb.h>
 
+#include <string>
+
 #include "welkin/gl/loader.hpp"
 
 namespace welkin::gl {
@@ -60,6 +62,10 @@ struct Api {
   int major = 0, minor = 0;  // its version
 
   bool hasExtension(const char* name) const;
+  // What GL_RENDERER says; "unknown" where it says nothing.
+  std::string driver() const;
+  // Whether the processor draws: Mesa's drivers for machines without a GPU.
+  bool software() const;
   // Throws Error (failed) naming `doing` when OpenGL has recorded an error.
   void check(const char* doing) const;
 };

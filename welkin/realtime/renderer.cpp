@@ -16,6 +16,7 @@
 #include "welkin/density/hero_grid.hpp"
 #include "welkin/gl/state.hpp"
 #include "welkin/noise/blue_noise.hpp"
+#include "welkin/noise/textures.hpp"
 #include "welkin/realtime/falling.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/realtime/grid_atlas.hpp"
@@ -274,21 +275,33 @@ void Renderer::State::makeTextures(const Scene& next, const CustomTextures& cust
     else if (fresh || changed || !texture || customised)
       texture = generate();
   };
+  // Without a GPU our own SIMD lanes make them several times as fast as the driver's (bench/noise.cpp).
+  const bool software = gl.software();
   const float mix = next.layers.empty() ? billowMix : next.layers.front().profile.billowMix;
   const NoiseSettings &old = scene.noise, &now = next.noise;
   if (uses(next, LayerShape::profile)) {
     const bool changed = !sameFields(old.profile, now.profile);
-    make(profileBase, custom.profileBase, changed || mix != billowMix,
-         [&] { return generateProfileBasePacked(gl, now.profile, mix); });
-    make(profileDetail, custom.profileDetail, changed, [&] { return generateProfileDetail(gl, now.profile); });
-    make(profileWarp, custom.profileWarp, changed, [&] { return generateProfileWarp(gl, now.profile); });
+    make(profileBase, custom.profileBase, changed || mix != billowMix, [&] {
+      return software ? textureFromVolume(gl, bakeProfileBasePacked(now.profile, mix))
+                      : generateProfileBasePacked(gl, now.profile, mix);
+    });
+    make(profileDetail, custom.profileDetail, changed, [&] {
+      return software ? textureFromVolume(gl, bakeProfileDetail(now.profile)) : generateProfileDetail(gl, now.profile);
+    });
+    make(profileWarp, custom.profileWarp, changed, [&] {
+      return software ? textureFromVolume(gl, bakeProfileWarp(now.profile)) : generateProfileWarp(gl, now.profile);
+    });
   }
   if (uses(next, LayerShape::nubis)) {
-    make(nubisBase, custom.nubisBase, !sameFields(old.baseShape, now.baseShape),
-         [&] { return generateBaseShapePacked(gl, now.baseShape); });
-    make(nubisDetail, custom.nubisDetail, !sameFields(old.detail, now.detail),
-         [&] { return generateDetailPacked(gl, now.detail); });
-    make(curl, custom.curl, !sameFields(old.curl, now.curl), [&] { return generateCurl(gl, now.curl); });
+    make(nubisBase, custom.nubisBase, !sameFields(old.baseShape, now.baseShape), [&] {
+      return software ? textureFromVolume(gl, bakeBaseShapePacked(now.baseShape))
+                      : generateBaseShapePacked(gl, now.baseShape);
+    });
+    make(nubisDetail, custom.nubisDetail, !sameFields(old.detail, now.detail), [&] {
+      return software ? textureFromVolume(gl, bakeDetailPacked(now.detail)) : generateDetailPacked(gl, now.detail);
+    });
+    make(curl, custom.curl, !sameFields(old.curl, now.curl),
+         [&] { return software ? textureFromVolume(gl, bakeCurl(now.curl)) : generateCurl(gl, now.curl); });
   }
   billowMix = mix;
   customised = replacesNoise(custom);

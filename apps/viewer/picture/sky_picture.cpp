@@ -179,8 +179,7 @@ struct SkyPicture::State {
         countsProgram(gl, "counts", "", kCountsText, realtime::shaderSource), tone(gl), scratch(gl),
         meter(gl, gl::Texture::Kind::plane, gl::kRgba32F, kMeterWidth, kMeterHeight, 0, gl::Filter::nearest,
               gl::Addressing::clamp, nullptr) {
-    const auto* text = gl.GetString(GL_RENDERER);
-    driver = text ? reinterpret_cast<const char*>(text) : "unknown";
+    driver = gl.driver();
     const bool has = gl.major * 10 + gl.minor >= 45 || gl.hasExtension("GL_ARB_clip_control");
     clipsFromZero = has && gl.ClipControl;
   }
@@ -438,8 +437,6 @@ void SkyPicture::countSamples(bool on) {
 }
 std::vector<realtime::MemoryRow> SkyPicture::memory() const { return state_->renderer.memory(state_->shown().view); }
 const std::string& SkyPicture::driver() const { return state_->driver; }
-bool SkyPicture::softwareDriver() const {
-  return driver().find("llvmpipe") != std::string::npos || driver().find("softpipe") != std::string::npos;
-}
+bool SkyPicture::softwareDriver() const { return state_->gl.software(); }
 
 }  // namespace welkin::viewer
