@@ -13,21 +13,20 @@
 #include <string>
 #include <vector>
 
+#include "bench/cycles.hpp"
 #include "bench/harness.hpp"
-#include "welkin/atmosphere/params.hpp"
-#include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/density/voxel_bake.hpp"
 #include "welkin/io/exr.hpp"
-#include "welkin/io/file.hpp"
 #include "welkin/io/grids.hpp"
-#include "welkin/io/sky_file.hpp"
 #include "welkin/io/vdb.hpp"
 #include "welkin/scene/camera.hpp"
 #include "welkin/trace/path_tracer.hpp"
 
 namespace welkin {
 namespace {
+
+using namespace bench;
 
 constexpr int kWidth = 320, kHeight = 180;
 constexpr double kVoxel = 6.25;         // m
@@ -54,22 +53,10 @@ constexpr Question kQuestions[] = {
     {"single", 1, 1024, 16, 8, 16, 2, 0.5, 0.125, 64},
 };
 
-struct Shot {
-  std::string name;
-  int samples, scatterings, seed;
-  double stepRate;
-};
-
-// The sun and a sky of one radiance, no air and black ground.
-Scene clearScene() {
-  Scene scene = loadSky(WELKIN_SOURCE_DIR "/presets/cumulus.sky.toml");
-  Atmosphere& air = scene.atmosphere;
-  air.rayleigh = air.mie = air.ozone = air.haze = 0.0f;
-  air.model = SkyKind::gradient;
-  air.gradientHorizon = air.gradientZenith = {3.0f, 5.0f, 9.0f};
-  air.gradientGlow = glm::vec3(0.0f);
-  scene.ground.albedo = glm::vec3(0.0f);
-  scene.layers.front().cloud.thickness = 3000.0f;  // a tall one
+// A tall cloud of the preset and the camera before it.
+Scene cloudScene() {
+  Scene scene = clearScene();
+  scene.layers.front().cloud.thickness = 3000.0f;
   scene.camera = {.position = {0.0, -3100.0, 1400.0}, .pitch = 0.13f, .fov = 0.76f};
   return scene;
 }
@@ -103,51 +90,6 @@ std::vector<PlacedGrid> bakeCloud(Scene& scene, const std::string& path) {
   scene.grids.front().extinction = grids.front().extinction = static_cast<float>(kOpticalDepth / depth);
   return grids;
 }
-
-std::string listOf(const glm::dvec3& v) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z); }
-
-// Lets Blender draw the shots into the folder; answers CPU seconds of each.
-std::map<std::string, double> runCycles(const Scene& scene, const std::string& folder, const std::vector<Shot>& shots) {
-  const Camera& camera = scene.camera;
-  const GridCloud& cloud = scene.grids.front();
-  const glm::dvec3 sun = sunDirection(scene.sun);
-  const SkyParams sky = makeSkyParams(scene.atmosphere, glm::vec3(sun), camera.position.z, scene.ground.albedo);
-  std::string list;
-  for (const Shot& shot : shots)
-    list += fmt::format("{}{{\"name\": \"{}\", \"samples\": {}, \"scatterings\": {}, \"seed\": {}, \"step_rate\": {}}}",
-                        list.empty() ? "" : ", ", shot.name, shot.samples, shot.scatterings, shot.seed, shot.stepRate);
-  const std::string settings = folder + "/cycles.json";
-  writeBytes(settings,
-             fmt::format("{{\"folder\": \"{}\", \"volume\": \"{}\", \"location\": {}, \"voxel\": {}, "
-                         "\"extinction\": {:.9g}, \"asymmetry\": {}, \"to_sun\": {}, \"sun_angle\": {:.9g}, "
-                         "\"irradiance\": {}, \"sky\": {}, \"horizon\": {:.9g}, \"eye\": {}, \"backward\": {}, "
-                         "\"fov\": {:.9g}, \"width\": {}, \"height\": {}, \"shots\": [{}]}}\n",
-                         folder, cloud.file, listOf(cloud.position), kVoxel, cloud.extinction, kAsymmetry, listOf(sun),
-                         2.0 * sky.air.sunDirection.w, listOf(sky.air.sunIrradiance),
-                         listOf(scene.atmosphere.gradientZenith), std::sin(sky.air.horizonElevation),
-                         listOf(camera.position), listOf(-cameraAxes(camera)[2]), camera.fov, kWidth, kHeight, list));
-  const std::string command = "blender -b --factory-startup -noaudio --python-exit-code 1 --python '" WELKIN_SOURCE_DIR
-                              "/bench/cycles.py' -- '" +
-                              settings + "' 2>&1";
-  std::map<std::string, double> seconds;
-  std::string said;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  for (char line[4096]; pipe && std::fgets(line, sizeof line, pipe);) {
-    char name[256];
-    double value = 0.0;
-    if (std::sscanf(line, "SHOT %255s %lf", name, &value) == 2) {
-      seconds[name] = value;
-      fmt::print("  Cycles {} {:.1f} s\n", name, value);
-      std::fflush(stdout);
-    }
-    said += line;
-  }
-  if (!pipe || ::pclose(pipe) != 0 || seconds.size() != shots.size())
-    throw Error(ErrorKind::failed, "blender", "Blender did not draw all pictures; it said\n" + said);
-  return seconds;
-}
-
-double luminanceOf(const float* c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
 
 // Our long picture, at the pixels that show cloud. All of this is of luminance.
 struct Reference {
@@ -228,7 +170,7 @@ struct Score {
 
 class Comparison {
  public:
-  explicit Comparison(std::string folder) : folder_(std::move(folder)), scene_(clearScene()) {
+  explicit Comparison(std::string folder) : folder_(std::move(folder)), scene_(cloudScene()) {
     std::filesystem::create_directories(folder_);
     grids_ = bakeCloud(scene_, folder_ + "/cloud.vdb");
     const glm::ivec3 n = grids_.front().voxels->dims();
@@ -247,7 +189,10 @@ class Comparison {
           shots.push_back({shotName(q, factor, i), factor * q.cyclesFew, scatterings, 10 * i + factor, q.stepRate});
       shots.push_back({fmt::format("{}_fine", q.name), q.fineSamples, scatterings, 0, q.fineStepRate});
     }
-    cyclesSeconds_ = runCycles(scene_, folder_, shots);
+    const GridCloud& cloud = scene_.grids.front();
+    cyclesSeconds_ = runCycles(
+        scene_, mediumText(cloud.extinction, kAsymmetry) + ", " + volumeText(cloud.file, cloud.position, kVoxel),
+        kWidth, kHeight, folder_, shots);
   }
 
   // Answers the line's part of the JSON object.
@@ -338,10 +283,7 @@ class Comparison {
 };
 
 int run(const std::string& folder) {
-  if (std::system("command -v blender > /dev/null") != 0) {
-    fmt::print(stderr, "bench_cycles: there is no blender on the path (Debian: blender); it draws the other half\n");
-    return 1;
-  }
+  requireBlender();
   Comparison comparison(folder);
   comparison.drawCycles();
   std::string json;

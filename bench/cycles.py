@@ -1,4 +1,4 @@
-# Draws a cloud volume in Blender's Cycles, for bench/cycles.cpp:
+# Draws a cloud in Blender's Cycles, for bench/cycles.hpp:
 #   blender -b --factory-startup -noaudio --python bench/cycles.py -- SETTINGS.json
 # Written for Blender 3.4. For every shot it prints "SHOT name CPU-seconds" of the call that renders it.
 import json
@@ -14,16 +14,44 @@ with open(sys.argv[-1]) as file:
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
 
-# Cycles samples volumes half a voxel low on every axis.
-bpy.ops.object.volume_import(filepath=want['volume'])
-cloud = bpy.context.object
-cloud.location = Vector(want['location']) - Vector((want['voxel'] / 2,) * 3)
-material = bpy.data.materials.new('cloud')
-material.use_nodes = True
+
+def imported_volume():
+    """The cloud of a file; its density as a socket of its material."""
+    bpy.ops.object.volume_import(filepath=want['volume'])
+    cloud = bpy.context.object
+    # Cycles samples volumes half a voxel low on every axis.
+    cloud.location = Vector(want['location']) - Vector((want['voxel'] / 2,) * 3)
+    material = new_material(cloud)
+    density = material.node_tree.nodes.new('ShaderNodeAttribute')
+    density.attribute_name = 'density'
+    return material, density.outputs['Fac']
+
+
+def live_volume():
+    """A cloud of the add-on's nodes in its box, computed while it is drawn."""
+    live = want['live']
+    sys.path.insert(0, live['add_on'])
+    from welkin_sky import nodes
+    form = live['form']
+    box = nodes._box('cloud', form['width'], form['width'] * form['breadth'], form['height'])
+    cloud = bpy.data.objects.new('cloud', box)
+    cloud.location = live['location']
+    scene.collection.objects.link(cloud)
+    material = new_material(cloud)
+    material.cycles.volume_step_rate = nodes.STEP_RATE
+    return material, nodes.density(material.node_tree, form, live['classic'])
+
+
+def new_material(cloud):
+    material = bpy.data.materials.new('cloud')
+    material.use_nodes = True
+    material.node_tree.nodes.clear()
+    cloud.data.materials.append(material)
+    return material
+
+
+material, density = live_volume() if 'live' in want else imported_volume()
 nodes, links = material.node_tree.nodes, material.node_tree.links
-nodes.clear()
-density = nodes.new('ShaderNodeAttribute')
-density.attribute_name = 'density'
 extinction = nodes.new('ShaderNodeMath')
 extinction.operation = 'MULTIPLY'
 extinction.inputs[1].default_value = want['extinction']
@@ -31,10 +59,9 @@ scatter = nodes.new('ShaderNodeVolumeScatter')
 scatter.inputs['Color'].default_value = (1, 1, 1, 1)
 scatter.inputs['Anisotropy'].default_value = want['asymmetry']
 output = nodes.new('ShaderNodeOutputMaterial')
-links.new(density.outputs['Fac'], extinction.inputs[0])
+links.new(density, extinction.inputs[0])
 links.new(extinction.outputs[0], scatter.inputs['Density'])
 links.new(scatter.outputs[0], output.inputs['Volume'])
-cloud.data.materials.append(material)
 
 # A sky of one radiance above the horizon and none below.
 world = bpy.data.worlds.new('sky')

@@ -58,6 +58,7 @@ void addCheck(CLI::App& app);
 void addInfo(CLI::App& app);
 void addNoise(CLI::App& app);
 void addWeather(CLI::App& app);
+void addCloud(CLI::App& app);
 void addVdb(CLI::App& app);
 void addVideo(CLI::App& app);
 void addFlux(CLI::App& app);

@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   addInfo(app);
   addNoise(app);
   addWeather(app);
+  addCloud(app);
   addVdb(app);
   addVideo(app);
   addFlux(app);

@@ -109,6 +109,23 @@ TEST(Denoise, SpreadsSpikesAndKeepsTheirLight) {
   EXPECT_NEAR(meanOf(out, 0, kWidth) / meanOf(layers.radiance, 0, kWidth), 1.0, 0.02);
 }
 
+// One path of 32 that is 1200 times as bright as the others: spread, it raises the square of 17 pixels around it by up
+// to 13 % (1200 / 32 of 289); dimmed, it leaves nothing that an eye could tell (Weber's 2 %).
+TEST(Denoise, DimsSpikesThatWouldBeSquares) {
+  TraceLayers layers = tracedOf([](int, int) { return 10.0; }, false);
+  const float excess = 10.0f * 1200.0f / kSamples;
+  std::fill_n(layers.radiance.at(48, 32), 3, 10.0f + excess);
+  *layers.variance.at(48, 32) = excess * excess;
+  const auto square = [](const Image& image) {
+    double sum = 0.0;
+    for (int y = 24; y <= 40; ++y)
+      for (int x = 40; x <= 56; ++x) sum += image.at(x, y)[0];
+    return sum / (17 * 17);
+  };
+  EXPECT_GT(square(denoise(layers)), 10.6);
+  EXPECT_NEAR(square(denoise(layers, Outliers::dimmed)), 10.0, 0.2);
+}
+
 // Twelve pixels in a thousand hold a bright path, alone or beside another. None stays a speck, brighter by a tenth
 // than everything around it; with their own noise kept at full weight twelve did.
 TEST(Denoise, LeavesNoSpecks) {

@@ -57,13 +57,11 @@ struct FieldTable<GridCloud> {
                                   "`extinction`), extinction in 1/m, or liquid water in g/m^3"),
         field<&GridCloud::extinction, kPerMetre>("extinction", {0, 100}, {0.005, 0.5}, "of the value 1"),
         field<&GridCloud::density>("density", {0, 1000}, {0, 4}, "factor on all values"),
-        field<&GridCloud::albedo>("albedo", {0, 1}, {0.9, 1}, "single-scattering albedo, for the path tracer"),
-        field<&GridCloud::phase>("phase", "phase function, for the path tracer"),
+        albedoRow<&GridCloud::albedo>(), phaseRow<&GridCloud::phase>(),
         field<&GridCloud::dropletDiameter, kMicrometres>(
             "droplet_diameter", {1, 200}, {5, 40},
             "effective diameter of the droplets, for values of water and phase droplets"),
-        field<&GridCloud::asymmetry>("asymmetry", {-0.99, 0.99}, {0.7, 0.9},
-                                     "mean cosine of scattering, for phase henyey_greenstein"));
+        asymmetryRow<&GridCloud::asymmetry>());
   }
 };
 

@@ -63,12 +63,8 @@ struct FieldTable<HeroCloud> {
         field<&HeroCloud::lifetime, kSeconds>("lifetime", {0, 1e6}, {0, 7200},
                                               "time in which the age goes from 0 to 1; 0: it stays"),
         field<&HeroCloud::extinction, kPerMetre>("extinction", {0, 1}, {0.005, 0.3}, "extinction of dense cloud"),
-        field<&HeroCloud::albedo>("albedo", {0, 1}, {0.9, 1}, "single-scattering albedo, for the path tracer"),
-        field<&HeroCloud::phase>("phase", "phase function, for the path tracer"),
-        field<&HeroCloud::dropletDiameter, kMicrometres>("droplet_diameter", {5, 50}, {5, 40},
-                                                         "diameter of the droplets, for phase droplets"),
-        field<&HeroCloud::asymmetry>("asymmetry", {-0.99, 0.99}, {0.7, 0.9},
-                                     "mean cosine of scattering, for phase henyey_greenstein"),
+        albedoRow<&HeroCloud::albedo>(), phaseRow<&HeroCloud::phase>(), dropletRow<&HeroCloud::dropletDiameter>(),
+        asymmetryRow<&HeroCloud::asymmetry>(),
         field<&HeroCloud::drift>("drift", {0, 2}, {0, 1}, "share of the wind that carries it"),
         field<&HeroCloud::updraft, kMetresPerSecond>("updraft", {0, 30}, {0, 10}, "rise of the billows through it"));
   }

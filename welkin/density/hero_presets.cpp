@@ -127,10 +127,10 @@ Hero castellanus(Hero h) {
             .width = 4200.0f,
             .breadth = 0.3f,
             .height = 520.0f,
-            .parts = 13,
-            .towerRadius = 0.031f,
-            .rimRadius = 0.014f,
-            .rimHeight = 0.3f,
+            .parts = 24,
+            .towerRadius = 0.036f,
+            .rimRadius = 0.018f,
+            .rimHeight = 0.4f,
             .waist = 0.05f,
             .lean = 0.05f};
   h.surface.billowSize = 0.09f;

@@ -12,4 +12,24 @@ struct ChoiceNames<ScatteringPhase> {
   static constexpr std::array<std::string_view, 2> names{"droplets", "henyey_greenstein"};
 };
 
+// Rows of what every kind of cloud says of its droplets, whose members are a struct's own.
+template <auto Albedo>
+Field albedoRow() {
+  return field<Albedo>("albedo", {0, 1}, {0.9, 1}, "single-scattering albedo, for the path tracer");
+}
+template <auto Phase>
+Field phaseRow() {
+  return field<Phase>("phase", "phase function, for the path tracer");
+}
+template <auto Diameter>
+Field dropletRow() {
+  return field<Diameter, kMicrometres>("droplet_diameter", {5, 50}, {5, 40},
+                                       "diameter of the droplets, for phase droplets");
+}
+template <auto Asymmetry>
+Field asymmetryRow() {
+  return field<Asymmetry>("asymmetry", {-0.99, 0.99}, {0.7, 0.9},
+                          "mean cosine of scattering, for phase henyey_greenstein");
+}
+
 }  // namespace welkin

@@ -80,9 +80,9 @@ Planes planesOf(const TraceLayers& layers) {
 // about one standard error of a pixel with one such path, two with four. A pixel that exceeds, by less than two of its
 // standard errors, what all but two of its eight neighbours may be (their luminance and two standard errors) is taken
 // for one that looks like the third of them: taken for as bright as it may be, it would be like none of them, and stay
-// a speck. Two, because such pixels come in pairs. What is bright for certain, like the sun's disc, stays. This is for
-// the weights alone: the mean is taken of what was traced, so that no light is lost.
-void dimOutliers(Planes& p) {
+// a speck. Two, because such pixels come in pairs. What is bright for certain, like the sun's disc, stays. Where they
+// are to be spread this is for the weights alone: the mean is taken of what was traced, so that no light is lost.
+void dimOutliers(Planes& p, Outliers outliers) {
   const Planes from = p;
   parallelFor(static_cast<std::size_t>(p.height), 8, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
@@ -102,7 +102,10 @@ void dimOutliers(Planes& p) {
         const auto [limit, variance] = limits[static_cast<std::size_t>(rank)];
         const float excess = p.luminance.row(y)[x] - limit;
         if (excess <= 0.0f || squared(excess) >= 4.0f * p.variance.row(y)[x]) continue;
-        p.luminance.row(y)[x] = limit - 2.0f * std::sqrt(variance);
+        const float dimmed = limit - 2.0f * std::sqrt(variance);
+        if (outliers == Outliers::dimmed)
+          for (Plane* colour : {&p.red, &p.green, &p.blue}) colour->row(y)[x] *= dimmed / p.luminance.row(y)[x];
+        p.luminance.row(y)[x] = dimmed;
         p.variance.row(y)[x] = variance;
       }
   });
@@ -200,16 +203,16 @@ void filterBand(const Planes& p, int begin, int end, Image& out) {
       const float own = std::max(sums[i].greatest[x], 1e-6f);
       const float all = sums[i].weight[x] + own;
       float* to = out.at(static_cast<int>(x), y);
-      to[0] = (sums[i].red[x] + own * to[0]) / all;
-      to[1] = (sums[i].green[x] + own * to[1]) / all;
-      to[2] = (sums[i].blue[x] + own * to[2]) / all;
+      to[0] = (sums[i].red[x] + own * p.red.row(y)[x]) / all;
+      to[1] = (sums[i].green[x] + own * p.green.row(y)[x]) / all;
+      to[2] = (sums[i].blue[x] + own * p.blue.row(y)[x]) / all;
     }
   }
 }
 
 }  // namespace
 
-Image denoise(const TraceLayers& layers) {
+Image denoise(const TraceLayers& layers, Outliers outliers) {
   for (const Image* layer : {&layers.variance, &layers.transmittance, &layers.depth, &layers.samples})
     if (layer->width != layers.radiance.width || layer->height != layers.radiance.height || layer->channels != 1 ||
         layers.radiance.channels != 3)
@@ -219,7 +222,7 @@ Image denoise(const TraceLayers& layers) {
   Image out = layers.radiance;
   if (out.pixels.empty()) return out;
   Planes p = planesOf(layers);
-  dimOutliers(p);
+  dimOutliers(p, outliers);
   smoothVariance(p);
   const auto bands = static_cast<std::size_t>((p.height + kBand - 1) / kBand);
   parallelFor(bands, 1, [&](std::size_t first, std::size_t last) {

@@ -14,6 +14,7 @@ CURVE_POINTS = 24
 SIZES = 10.0  # cells of the texture in the cloud's size at an overall scale of 1
 CHURN = 60.0  # s, in which the noise becomes another
 MEAN_COSINE = 0.86  # of droplets
+STEP_RATE = 0.1  # Cycles' own step is a tenth of the box
 # Sockets that are parameters of [hero.classic], by node.
 MAIN_PARAMETERS = ("cloud_scale", "density", "distortion")
 
@@ -264,7 +265,7 @@ def live_cloud(context):
     material = bpy.data.materials.new(MATERIAL)
     material.use_nodes = True
     if hasattr(material, "cycles"):
-        material.cycles.volume_step_rate = 0.1  # Cycles' own is a tenth of the box
+        material.cycles.volume_step_rate = STEP_RATE
     tree = material.node_tree
     tree.nodes.clear()
     dense = density(tree, form, classic)

@@ -54,12 +54,8 @@ struct FieldTable<ClassicalCloud> {
         field<&ClassicalCloud::edge>("edge", {0.01, 1}, {},
                                      "share of the model's density at which the cloud is as dense as it gets"),
         field<&ClassicalCloud::extinction, kPerMetre>("extinction", {0, 1}, {0.001, 0.2}, "of the densest cloud"),
-        field<&ClassicalCloud::albedo>("albedo", {0, 1}, {0.9, 1}, "single-scattering albedo, for the path tracer"),
-        field<&ClassicalCloud::phase>("phase", "phase function, for the path tracer"),
-        field<&ClassicalCloud::dropletDiameter, kMicrometres>("droplet_diameter", {5, 50}, {5, 40},
-                                                              "diameter of the droplets, for phase droplets"),
-        field<&ClassicalCloud::asymmetry>("asymmetry", {-0.99, 0.99}, {0.7, 0.9},
-                                          "mean cosine of scattering, for phase henyey_greenstein"),
+        albedoRow<&ClassicalCloud::albedo>(), phaseRow<&ClassicalCloud::phase>(),
+        dropletRow<&ClassicalCloud::dropletDiameter>(), asymmetryRow<&ClassicalCloud::asymmetry>(),
         field<&ClassicalCloud::drift>("drift", {0, 2}, {0, 1}, "share of the wind that carries it"));
   }
 };
