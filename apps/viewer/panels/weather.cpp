@@ -106,8 +106,8 @@ void drawMap(Workbench& bench) {
   // As high as the controls below leave room for.
   const ImVec2 room = ImGui::GetContentRegionAvail();
   MapCanvas canvas;
-  canvas.edge = std::max(std::min(room.x, room.y - 13.0f * ImGui::GetFrameHeightWithSpacing()),
-                         std::max(10.0f * ImGui::GetFontSize(), 1.0f));
+  canvas.edge =
+      std::max(std::min(room.x, room.y - 13.0f * ImGui::GetFrameHeightWithSpacing()), 4.0f * ImGui::GetFontSize());
   canvas.corner = ImGui::GetCursorScreenPos();
   canvas.corner.x += std::max(0.5f * (room.x - canvas.edge), 0.0f);
   ImGui::SetCursorScreenPos(canvas.corner);
