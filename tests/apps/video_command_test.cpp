@@ -92,7 +92,7 @@ TEST_F(VideoCommand, GoesOnAfterAKill) {
 
 TEST_F(VideoCommand, InterruptedItKeepsItsFrames) {
   sky();
-  const test::Outcome o = video("a.mp4", "--seconds 400", "timeout --signal=INT --preserve-status 6");
+  const test::Outcome o = video("a.mp4", "--seconds 400", "timeout --signal=INT --preserve-status 30");
   EXPECT_EQ(o.code, 1) << o.err;
   EXPECT_NE(o.err.find("interrupted; "), std::string::npos) << o.err;
   EXPECT_NE(o.err.find("the same command goes on from there"), std::string::npos) << o.err;
