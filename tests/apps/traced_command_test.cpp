@@ -113,7 +113,7 @@ TEST_F(TracedCommand, AFullDiskLeavesTheOldCheckpoint) {
 
   // Interrupted at once it leaves a state behind.
   const std::string longer = "--size 96x48 --samples 100000 --checkpoint-every 0 --checkpoint " + path("state");
-  ASSERT_EQ(render("a.exr", longer, "timeout --signal=INT --preserve-status 5").code, 0);
+  ASSERT_EQ(render("a.exr", longer, "timeout --foreground --signal=INT --preserve-status 5").code, 0);
   const std::string old = test::slurp(path("state"));
   ASSERT_GT(old.size(), 8192u);
   EXPECT_EQ(render("b.exr", longer, test::fullDisk(16)).code, 1);

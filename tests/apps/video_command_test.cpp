@@ -92,7 +92,9 @@ TEST_F(VideoCommand, GoesOnAfterAKill) {
 
 TEST_F(VideoCommand, InterruptedItKeepsItsFrames) {
   sky();
-  const test::Outcome o = video("a.mp4", "--seconds 400", "timeout --signal=INT --preserve-status 30");
+  // In the foreground: otherwise the signal goes to the process and then to its group, and a second Ctrl-C ends it at
+  // once.
+  const test::Outcome o = video("a.mp4", "--seconds 400", "timeout --foreground --signal=INT --preserve-status 6");
   EXPECT_EQ(o.code, 1) << o.err;
   EXPECT_NE(o.err.find("interrupted; "), std::string::npos) << o.err;
   EXPECT_NE(o.err.find("the same command goes on from there"), std::string::npos) << o.err;
