@@ -66,7 +66,7 @@ std::string withPrefix(const std::string& text, const std::set<std::string>& nam
 
 const std::string& hostShaderText() {
   static const std::string text = [] {
-    const std::string whole = gl::expandIncludes(std::string(shaderSource(kHostFile)), kHostFile, shaderSource).text;
+    const std::string whole = gl::expandIncludes(shaderText(kHostFile), kHostFile, shaderSource).text;
     return withPrefix(whole, declaredNames(whole));
   }();
   return text;

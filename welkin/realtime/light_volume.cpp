@@ -25,7 +25,7 @@ constexpr int kUnits = 10;  // the first texture unit of these passes; those bef
 
 gl::Program lightPass(const gl::Api& gl, const std::string& name) {
   const std::string path = "welkin/realtime/shaders/" + name + ".frag.glsl";
-  gl::Program program(gl, name, "", std::string(shaderSource(path)), shaderSource);
+  gl::Program program(gl, name, "", shaderText(path), shaderSource);
   program.bindBlock("Volume", kBlockBinding);
   return program;
 }

@@ -36,8 +36,8 @@ gl::Texture generate(const gl::Api& gl, const Recipe& recipe, const Params& para
   static_assert(sizeof(Params) % 16 == 0, "the law's parameters are std140-clean");
   const std::string defines =
       std::string("#define NOISE_PARAMS ") + recipe.params + "\n#define NOISE_TEXEL(uvw, p) " + recipe.texel + "\n";
-  const gl::Program program(gl, "noise texture", defines,
-                            std::string(shaderSource("welkin/realtime/shaders/noise_texture.frag.glsl")), shaderSource);
+  const gl::Program program(gl, "noise texture", defines, shaderText("welkin/realtime/shaders/noise_texture.frag.glsl"),
+                            shaderSource);
   gl::Texture texture(gl, depth > 0 ? gl::Texture::Kind::volume : gl::Texture::Kind::plane, recipe.format, size, size,
                       depth, gl::Filter::linear, gl::Addressing::repeat, nullptr);
   gl::UniformBuffer block(gl);

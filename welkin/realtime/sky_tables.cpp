@@ -16,7 +16,7 @@ constexpr GLuint kSkyBlock = 0;
 
 gl::Program skyPass(const gl::Api& gl, const std::string& name) {
   const std::string path = "welkin/realtime/shaders/" + name + ".frag.glsl";
-  gl::Program program(gl, name, "", std::string(shaderSource(path)), shaderSource);
+  gl::Program program(gl, name, "", shaderText(path), shaderSource);
   program.bindBlock("SkyBlock", kSkyBlock);
   return program;
 }

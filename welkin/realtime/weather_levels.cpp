@@ -24,8 +24,8 @@ WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int
              gl::Filter::linear, gl::Addressing::clamp, nullptr),
       bounds_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels / kCell, extent.texels / kCell,
               layers * extent.levels, gl::Filter::nearest, gl::Addressing::clamp, nullptr),
-      boundsPass_(gl, "weather bounds", "",
-                  std::string(shaderSource("welkin/realtime/shaders/weather_bounds.frag.glsl")), shaderSource),
+      boundsPass_(gl, "weather bounds", "", shaderText("welkin/realtime/shaders/weather_bounds.frag.glsl"),
+                  shaderSource),
       levels_(static_cast<std::size_t>(layers) * static_cast<std::size_t>(extent.levels)) {}
 
 bool WeatherLevels::fits(const WeatherExtent& extent, int layers) const {
