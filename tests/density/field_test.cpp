@@ -1,5 +1,4 @@
 // The field's answers are the law's, evaluated by hand, wherever in the world it is asked.
-#include "tests/density/small_noise.hpp"
 #include "welkin/density/field.hpp"
 
 #include <gtest/gtest.h>
@@ -7,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/density/small_noise.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/density/weather_map.hpp"
 #include "welkin/noise/textures.hpp"

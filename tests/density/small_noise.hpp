@@ -1,6 +1,6 @@
 #pragma once
 // Noise that is quick to make.
-#include "welkin/noise/settings.hpp"
+#include "welkin/density/noise_settings.hpp"
 
 namespace welkin::test {
 
