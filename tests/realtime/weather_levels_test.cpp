@@ -1,4 +1,4 @@
-// The weather that the GPU draws into its clip levels is the CPU's.
+// The weather of the GPU's clip levels is the CPU's, whether drawn or uploaded.
 #include "welkin/realtime/weather_levels.hpp"
 
 #include <gtest/gtest.h>
@@ -19,17 +19,18 @@ namespace {
 
 constexpr WeatherExtent kExtent{.texels = 64, .levels = 3, .finest = 16000.0, .ratio = 2.5};
 
-using Case = std::tuple<LayerShape, Population, bool>;
+using Case = std::tuple<std::tuple<LayerShape, Population, bool>, bool>;  // with a picture; made on the processor
 class WeatherOnTheGpu : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override { gl_ = gl::loadApi(context_.loader()); }
 
   Layer layer() const {
     Layer l;
-    l.cloud.shape = std::get<0>(GetParam());
-    l.weather.population = std::get<1>(GetParam());
+    const auto& [shape, population, picture] = std::get<0>(GetParam());
+    l.cloud.shape = shape;
+    l.weather.population = population;
     l.weather.precipitation = 0.5f;
-    if (std::get<2>(GetParam())) l.weather.map = "picture.png";
+    if (picture) l.weather.map = "picture.png";
     return l;
   }
 
@@ -62,7 +63,7 @@ TEST_P(WeatherOnTheGpu, IsTheCpus) {
   for (std::size_t i = 0; i < map.texels.size(); ++i) map.texels[i] = static_cast<float>((i * 7) % 11) / 10.0f;
   roundToHalf(map);
   const gl::Texture picture = textureFromVolume(gl_, map);
-  WeatherLevels levels(gl_, kExtent, 1);
+  WeatherLevels levels(gl_, kExtent, 1, std::get<1>(GetParam()));
   gl::Framebuffer framebuffer(gl_);
   gl::UniformBuffer buffer(gl_);
   const gl::VertexArray triangle(gl_);
@@ -86,13 +87,14 @@ TEST_P(WeatherOnTheGpu, IsTheCpus) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Layers, WeatherOnTheGpu,
-                         testing::Values(Case{LayerShape::profile, Population::clusters, false},
-                                         Case{LayerShape::profile, Population::domes, true},
-                                         Case{LayerShape::profile, Population::cells, false},
-                                         Case{LayerShape::profile, Population::front, false},
-                                         Case{LayerShape::profile, Population::uniform, false},
-                                         Case{LayerShape::nubis, Population::clusters, false},
-                                         Case{LayerShape::nubis, Population::clusters, true}));
+                         testing::Combine(testing::Values(std::tuple(LayerShape::profile, Population::clusters, false),
+                                                          std::tuple(LayerShape::profile, Population::domes, true),
+                                                          std::tuple(LayerShape::profile, Population::cells, false),
+                                                          std::tuple(LayerShape::profile, Population::front, false),
+                                                          std::tuple(LayerShape::profile, Population::uniform, false),
+                                                          std::tuple(LayerShape::nubis, Population::clusters, false),
+                                                          std::tuple(LayerShape::nubis, Population::clusters, true)),
+                                          testing::Bool()));
 
 }  // namespace
 }  // namespace welkin::realtime

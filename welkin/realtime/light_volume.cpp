@@ -16,8 +16,9 @@ constexpr float kSunJump = 0.02f;     // rad after which nothing known of its li
 constexpr float kStretch = 0.1f;      // share of the shell's height by which it may change and leave the light of use
 constexpr double kAgeing = 20.0;      // s in which noise that drifts at a speed of its own has moved
 constexpr float kLeastSlant = 0.03f;  // a sun that is lower shines as from here
-// Steps of relaxation of a level that starts from the coarser one, and of one that knew most of its light.
-constexpr int kFirstSteps = 8, kNextSteps = 3;
+// Steps of relaxation of the coarsest level, of one that starts from the coarser one, and of one that knew most of its
+// light.
+constexpr int kCoarsestSteps = 8, kFinerSteps = 4, kNextSteps = 3;
 // What one slice of each pass costs, in proportion (llvmpipe).
 constexpr double kDensityWork = 6.0, kSunWork = 1.0, kStartWork = 0.5, kDownWork = 2.0, kUpWork = 1.0, kCopyWork = 0.4;
 constexpr GLuint kBlockBinding = 3;
@@ -200,7 +201,8 @@ double LightVolume::go(const CloudPasses& clouds, gl::Framebuffer& framebuffer, 
   levelOf(params.levels, job_->level) = clipLevel(extent_, job_->level, inAir_ - job_->centre);
   block_.upload(&params, sizeof params);
   block_.bind(kBlockBinding);
-  const int steps = job_->known ? kNextSteps : kFirstSteps, doublings = this->doublings();
+  const bool coarsest = job_->level == extent_.levels - 1;
+  const int steps = job_->known ? kNextSteps : coarsest ? kCoarsestSteps : kFinerSteps, doublings = this->doublings();
   while (job_ && work > 0.0) {
     constexpr double kWork[] = {kDensityWork, kSunWork, kStartWork, kDownWork, kUpWork, kCopyWork};
     Job& job = *job_;

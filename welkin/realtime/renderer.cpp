@@ -434,7 +434,7 @@ void Renderer::State::surround(View::State& view, const glm::dvec2& place) {
     if (around->weather && around->skyNumber == skyNumber && around->weather->fits(extent, layers))
       around->weather->change();
     else
-      around->weather = layers > 0 ? std::make_unique<WeatherLevels>(gl, extent, layers) : nullptr;
+      around->weather = layers > 0 ? std::make_unique<WeatherLevels>(gl, extent, layers, gl.software()) : nullptr;
     around->weatherNumber = weatherNumber;
   }
   if (!lit())

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "welkin/density/weather_map.hpp"
 #include "welkin/realtime/shader_sources.hpp"
 
 namespace welkin::realtime {
@@ -17,9 +18,10 @@ WeatherExtent weatherExtent(QualityPreset preset) {
   return {512, 4, 20000.0, 2.8};
 }
 
-WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers)
-    : gl_(gl), extent_(extent), main_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels,
-                                      layers * extent.levels, gl::Filter::linear, gl::Addressing::clamp, nullptr),
+WeatherLevels::WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers, bool onProcessor)
+    : gl_(gl), extent_(extent), onProcessor_(onProcessor),
+      main_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels,
+            gl::Filter::linear, gl::Addressing::clamp, nullptr),
       extra_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels, extent.texels, layers * extent.levels,
              gl::Filter::linear, gl::Addressing::clamp, nullptr),
       bounds_(gl, gl::Texture::Kind::array, gl::kRg16F, extent.texels / kCell, extent.texels / kCell,
@@ -72,12 +74,16 @@ int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& posit
   return static_cast<int>(stale.size());
 }
 
+// With the level's centre as anchor, in still air.
 void WeatherLevels::fill(int level, int slice, const Layer& layer, const Drift& drift, int seed,
                          const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
                          const gl::Texture& map) {
-  // Drawn with the level's centre as anchor, in still air.
-  const law::WeatherParams params = weatherParams(layer, levels_[static_cast<std::size_t>(slice)].centre,
-                                                  Drift{drift.windSpeed, drift.windFrom, 0.0}, seed);
+  const Drift still{drift.windSpeed, drift.windFrom, 0.0};
+  if (onProcessor_ && layer.weather.map.empty()) {
+    upload(level, slice, layer, still, seed);
+    return fillBounds(layer, level, slice, framebuffer);
+  }
+  const law::WeatherParams params = weatherParams(layer, levels_[static_cast<std::size_t>(slice)].centre, still, seed);
   buffer.upload(&params, sizeof params);
   buffer.bind(0);
   gl_.UseProgram(program.id());
@@ -91,6 +97,21 @@ void WeatherLevels::fill(int level, int slice, const Layer& layer, const Drift& 
   framebuffer.target(targets, slice);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
   fillBounds(layer, level, slice, framebuffer);
+}
+
+void WeatherLevels::upload(int level, int slice, const Layer& layer, const Drift& drift, int seed) {
+  const Volume weather = bakeWeather(layer, levels_[static_cast<std::size_t>(slice)].centre, extent_.edge(level),
+                                     extent_.texels, drift, seed);
+  std::vector<float> half(weather.texels.size() / 2);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  for (std::size_t part = 0; part < 2; ++part) {
+    for (std::size_t i = 0; i < half.size(); ++i) half[i] = weather.texels[2 * (i - i % 2) + 2 * part + i % 2];
+    const gl::Texture& to = part == 0 ? main_ : extra_;
+    gl_.BindTexture(to.target(), to.id());
+    gl_.TexSubImage3D(to.target(), 0, 0, 0, slice, extent_.texels, extent_.texels, 1, to.format().external,
+                      to.format().type, half.data());
+  }
 }
 
 void WeatherLevels::fillBounds(const Layer& layer, int level, int slice, gl::Framebuffer& framebuffer) {

@@ -16,7 +16,9 @@ class WeatherLevels {
  public:
   static constexpr int kAll = 1 << 20;
 
-  WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers);
+  // `onProcessor`: layers without an authoring picture are made by bakeWeather and uploaded, which is faster where the
+  // driver draws on the processor too.
+  WeatherLevels(const gl::Api& gl, const WeatherExtent& extent, int layers, bool onProcessor);
 
   // Whether the weather of so many layers would be kept in the same textures.
   bool fits(const WeatherExtent& extent, int layers) const;
@@ -50,10 +52,12 @@ class WeatherLevels {
   double away(int level, const Level& cached, const glm::dvec2& inAir) const;
   void fill(int level, int slice, const Layer& layer, const Drift& drift, int seed, const gl::Program& program,
             gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer, const gl::Texture& map);
+  void upload(int level, int slice, const Layer& layer, const Drift& drift, int seed);
   void fillBounds(const Layer& layer, int level, int slice, gl::Framebuffer& framebuffer);
 
   const gl::Api& gl_;
   WeatherExtent extent_;
+  bool onProcessor_;
   gl::Texture main_, extra_, bounds_;
   gl::Program boundsPass_;
   std::vector<Level> levels_;  // layer by layer

@@ -224,15 +224,17 @@ vec3 groundColour(vec4 land, vec2 p, mat2 across, vec3 fromEye, float distance_,
   even = smoothstep(40.0, 250.0, max(abs(at.x) - uRunway.z, abs(at.y) - uRunway.w));
 #endif
   vec3 normal = normalize(vec3(-land.yz - even * mix(0.035, 0.3, wild) * detail.xy, 1.0));
-  float tree = land.w + 0.35 * detail.z;
+  // Edges of woods and meadows are as soft as what the pixel covers of their cause.
+  float tree = land.w + 0.35 * detail.z + 0.5 * smoothstep(0.05, 0.25, steep), sloped = steep + 0.03 * detail.z;
+  float treeSoft = 0.06 + 0.7 * fwidth(tree), slopedSoft = 0.055 + 0.7 * fwidth(sloped);
   vec3 colour = fields(p, pixel, across) * (1.0 + 0.25 * detail.z);
   vec3 wood = vec3(0.024, 0.038, 0.015) * (1.0 + 0.5 * detail.z);
   vec3 grass = vec3(0.07, 0.085, 0.032) * (1.0 + 0.35 * detail.z);
   vec3 heath = vec3(0.105, 0.095, 0.055) * (1.0 + 0.35 * detail.z);
-  colour = mix(colour, grass, smoothstep(0.05, 0.16, steep + 0.03 * detail.z) * 0.9);
+  colour = mix(colour, grass, smoothstep(0.105 - slopedSoft, 0.105 + slopedSoft, sloped) * 0.9);
   float high = land.x + 260.0 * detail.z;
   colour = mix(colour, wood,
-               smoothstep(0.1, 0.22, tree + 0.5 * smoothstep(0.05, 0.25, steep)) * smoothstep(1500.0, 1050.0, high) *
+               smoothstep(0.16 - treeSoft, 0.16 + treeSoft, tree) * smoothstep(1500.0, 1050.0, high) *
                    smoothstep(0.75, 0.5, steep) * even * smoothstep(3.0, 9.0, land.x));
   colour = mix(colour, heath, smoothstep(1000.0, 1500.0, high));
   vec3 rock = mix(vec3(0.13, 0.12, 0.11), vec3(0.2, 0.185, 0.165), 0.5 + 0.7 * detail.z);
