@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
           const std::string script = fmt::format(fmt::runtime(c.script), governed ? "rate 25\n" : "", drawn);
           return run(command, size, script, rounds);
         };
+        run(command, size, fmt::format(fmt::runtime(c.script), "", 1), 1);  // compiles the shaders
         const Run first = measure(before), all = measure(before + frames);
         const double wall = (all.wall - first.wall) / frames, cpu = (all.cpu - first.cpu) / frames;
         const std::string what = fmt::format("{} {}{}", c.name, size, governed ? " governed" : "");
