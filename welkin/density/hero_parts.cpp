@@ -92,7 +92,7 @@ HeroGeometry heroFilaments(const HeroForm& form, std::uint32_t seed) {
     for (int k = 0; k < law::kHeroStrands; ++k) {
       const glm::vec3 from = head + glm::vec3(dice(-1.6f, 1.6f), dice(-2.2f, 2.2f), dice(-0.4f, 0.3f)) * tuft;
       const float fall = std::min(deep * dice(0.35f, 1.0f) * size, from.z);
-      const float bent = curve * dice(0.86f, 1.14f), width = form.width * dice(0.0026f, 0.0055f);
+      const float bent = curve * dice(0.86f, 1.14f), width = form.width * dice(0.002f, 0.0045f);
       const float strength = dice(0.2f, 0.7f);
       g.parts.part[at] = glm::vec4(from, fall);
       g.parts.part[at + 1] = glm::vec4(bent, width, strength, 0.0f);

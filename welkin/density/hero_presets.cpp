@@ -89,7 +89,7 @@ Hero lenticularis(Hero h) {
   h.cloud.position.z = 4500.0;
   h.cloud.extinction = 0.03f;
   h.cloud.drift = 0.0f;
-  h.form = {.shape = HeroShape::plates, .width = 6000.0f, .breadth = 0.74f, .height = 900.0f, .parts = 4};
+  h.form = {.shape = HeroShape::plates, .width = 6000.0f, .breadth = 0.74f, .height = 1350.0f, .parts = 4};
   h.surface.edge = 55.0f;
   h.surface.wisp = 0.045f;
   return h;
@@ -104,7 +104,7 @@ Hero stratusFractus(Hero h) {
 
 Hero cirrusUncinus(Hero h) {
   h.cloud.position.z = 7500.0;
-  h.cloud.extinction = 0.02f;
+  h.cloud.extinction = 0.006f;
   makeIce(h.cloud);
   h.form = {.shape = HeroShape::filaments, .width = 9000.0f, .breadth = 0.6f, .height = 1900.0f, .parts = 10};
   return h;
@@ -125,8 +125,8 @@ Hero castellanus(Hero h) {
   h.cloud.extinction = 0.05f;
   h.form = {.shape = HeroShape::rows,
             .width = 4200.0f,
-            .breadth = 0.3f,
-            .height = 520.0f,
+            .breadth = 0.4f,
+            .height = 740.0f,
             .parts = 24,
             .towerRadius = 0.036f,
             .rimRadius = 0.018f,

@@ -62,7 +62,7 @@ void addCluster(HeroSolid& s, const HeroLife& life, HeroDice& dice) {
   }
 }
 
-// Two rows of turrets of all sizes, each on a bank of flat cloud.
+// Two rows of turrets of all sizes, each on banks of flat cloud with gaps.
 void addRows(HeroSolid& s, const HeroLife& life, HeroDice& dice) {
   const HeroForm& form = s.form;
   const float half = 0.5f * form.width, apart = 0.28f * form.breadth * form.width;
@@ -73,8 +73,9 @@ void addRows(HeroSolid& s, const HeroLife& life, HeroDice& dice) {
     };
     const int banks = 15;
     for (int i = 0; i < banks; ++i) {
+      const bool gap = dice(0.0f, 1.0f) < 0.4f;
       const float x = half * (2.0f * (static_cast<float>(i) + dice(0.1f, 0.9f)) / banks - 1.0f) * 0.95f;
-      const float radius = dice(1.3f, 2.6f) * form.towerRadius * form.width;
+      const float radius = (gap ? 0.4f : dice(1.2f, 2.2f)) * form.towerRadius * form.width;
       s.pucks.emplace_back(x, across(x) + dice(-0.4f, 0.4f) * radius, 0.14f * radius, radius);
     }
     const int turrets = (form.parts + (row > 0 ? 1 : 0)) / 2;
@@ -83,7 +84,7 @@ void addRows(HeroSolid& s, const HeroLife& life, HeroDice& dice) {
           half * (2.0f * (static_cast<float>(i) + dice(0.0f, 1.0f)) / static_cast<float>(turrets) - 1.0f) * 0.9f;
       const float tall = dice(0.0f, 1.0f), slim = dice(0.0f, 1.0f);
       const float radius = form.width * glm::mix(form.towerRadius, form.rimRadius, slim);
-      const float height = form.height * glm::mix(form.rimHeight, 1.0f, tall * tall);
+      const float height = form.height * glm::mix(form.rimHeight, 1.0f, tall);
       const float start = dice(0.0f, 0.18f);
       const float grown = glm::mix(0.3f, 1.0f, law::smoothstep(start, start + 0.32f, life.age));
       addTower(form, {x, across(x)}, radius, height, grown, dice, s.balls);
