@@ -57,7 +57,7 @@ class WeatherOnTheGpu {
     white_ = realtime::textureFromVolume(gl, Volume(1, 1, 1, 4));
   }
   void draw() const {
-    realtime::WeatherLevels levels(gl_, kWeather, 1);
+    realtime::WeatherLevels levels(gl_, kWeather, 1, false);
     gl::Framebuffer framebuffer(gl_);
     gl::UniformBuffer buffer(gl_);
     const gl::VertexArray triangle(gl_);
