@@ -102,15 +102,14 @@ void WeatherLevels::fill(int level, int slice, const Layer& layer, const Drift& 
 void WeatherLevels::upload(int level, int slice, const Layer& layer, const Drift& drift, int seed) {
   const Volume weather = bakeWeather(layer, levels_[static_cast<std::size_t>(slice)].centre, extent_.edge(level),
                                      extent_.texels, drift, seed);
-  std::vector<float> half(weather.texels.size() / 2);
+  std::vector<float> pairs(weather.texels.size() / 2);
   gl_.ActiveTexture(GL_TEXTURE0);
-  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   for (std::size_t part = 0; part < 2; ++part) {
-    for (std::size_t i = 0; i < half.size(); ++i) half[i] = weather.texels[2 * (i - i % 2) + 2 * part + i % 2];
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i] = weather.texels[2 * (i - i % 2) + 2 * part + i % 2];
     const gl::Texture& to = part == 0 ? main_ : extra_;
     gl_.BindTexture(to.target(), to.id());
     gl_.TexSubImage3D(to.target(), 0, 0, 0, slice, extent_.texels, extent_.texels, 1, to.format().external,
-                      to.format().type, half.data());
+                      to.format().type, pairs.data());
   }
 }
 
