@@ -127,6 +127,52 @@ TEST(LightVolume, ChangesByAndByAndEndsWhereItWouldAtOnce) {
   }
 }
 
+// A view that does not wait: coarse light first, the same as at once in the end, and it says when.
+TEST(LightVolume, BeginsCoarseWhereItMayNotWait) {
+  Stage stage(48, 27), waits(48, 27);
+  const Scene scene = litCumulus();
+  const Image end = waits.draw(scene);
+  EXPECT_TRUE(waits.sky->outputs(waits.view).complete);
+  Frame frame = stage.frame(scene);
+  frame.waitForLight = false;
+  stage.sky->setScene(scene);
+  const Image first = stage.draw(stage.view, frame);
+  EXPECT_FALSE(stage.sky->outputs(stage.view).complete);
+  EXPECT_FALSE(same(first, end));
+  // Clouds in a light of their own kind: without any they are at 17 dB.
+  EXPECT_GT(displayedPsnr(first, end), 25.0);
+  int frames = 1;
+  Image last = first;
+  for (; !stage.sky->outputs(stage.view).complete && frames < 60; ++frames) last = stage.draw(stage.view, frame);
+  std::printf("%d frames, the first at %.1f dB\n", frames, displayedPsnr(first, end));
+  EXPECT_GT(frames, 8);
+  EXPECT_LT(frames, 60);
+  EXPECT_TRUE(same(last, end));
+}
+
+// Pixels of two lights side by side would show as a pattern: the first round begins anew when light comes into it.
+TEST(LightVolume, NoPictureMixesTwoLightsInItsFirstRound) {
+  Stage stage(48, 27), waits(48, 27);
+  Scene scene = litCumulus();
+  scene.quality.reprojection = true;
+  scene.quality.interleave = 4;
+  scene.quality.lightFrames = 2;
+  constexpr int kRound = 16;
+  Frame frame = stage.frame(scene);
+  waits.sky->setScene(scene);
+  Image end;
+  for (int i = 0; i < kRound; ++i) end = waits.draw(waits.view, frame);
+  frame.waitForLight = false;
+  stage.sky->setScene(scene);
+  int frames = 0;
+  do stage.draw(stage.view, frame);
+  while (!stage.sky->outputs(stage.view).complete && ++frames < 60);
+  Image last;
+  for (int i = 1; i < kRound; ++i) last = stage.draw(stage.view, frame);
+  std::printf("%.1f dB after %d frames\n", displayedPsnr(last, end), frames);
+  EXPECT_TRUE(same(last, end));
+}
+
 // Sliders that move all the time: every level gets its turn, so that the light is never older than a round.
 TEST(LightVolume, KeepsUpWithASunThatNeverStands) {
   Stage stage(48, 27);

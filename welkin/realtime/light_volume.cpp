@@ -123,11 +123,7 @@ bool LightVolume::stale() const {
   return job_.has_value();
 }
 
-bool LightVolume::lost() const {
-  for (int i = 0; i < extent_.levels; ++i)
-    if (useless(i)) return true;
-  return false;
-}
+bool LightVolume::lost() const { return useless(extent_.levels - 1); }
 
 law::LightVolumeParams LightVolume::params() const {
   law::LightVolumeParams p{};
@@ -137,11 +133,16 @@ law::LightVolumeParams LightVolume::params() const {
   p.slices = static_cast<float>(slices_);
   p.inverseDepth = 1.0f / static_cast<float>(sun_.depth());
   const float rise = (shell_.top - shell_.bottom) / static_cast<float>(slices_);
-  const glm::vec3& sunward = levels_.front().sunward;
+  const auto finest = std::find_if(levels_.begin(), levels_.end(), [](const Level& level) { return level.shown; });
+  const glm::vec3& sunward = finest == levels_.end() ? wanted_.sunward : finest->sunward;
   p.shift = glm::vec4(glm::vec2(sunward) * (rise / std::max(sunward.z, kLeastSlant)),
                       static_cast<float>(1.0 / kPlanetRadius), static_cast<float>(extent_.texels));
-  for (int i = 0; i < extent_.levels; ++i)
-    levelOf(p.levels, i) = clipLevel(extent_, i, inAir_ - levels_[static_cast<std::size_t>(i)].centre);
+  for (int i = 0; i < extent_.levels; ++i) {
+    const Level& level = levels_[static_cast<std::size_t>(i)];
+    law::ClipLevel& clip = levelOf(p.levels, i);
+    clip = clipLevel(extent_, i, inAir_ - level.centre);
+    if (!level.shown) clip.margin = 1.0f;  // holds nothing
+  }
   return p;
 }
 
@@ -411,6 +412,7 @@ void LightVolume::publish(gl::Framebuffer& framebuffer) {
       framebuffer.target({&from[i], 1}, s);
       copy(0, *to[i], job_->level * slices_ + s);
     }
+  if (!job_->known) ++jumps_;
   Level& level = levels_[static_cast<std::size_t>(job_->level)];
   static_cast<Purpose&>(level) = *job_;
   level.shown = true;

@@ -37,10 +37,13 @@ class LightVolume {
   void forget();
   // Whether draw() has anything to do.
   bool stale() const;
-  // Whether there is a level without light that is of any use.
+  // Whether there is no light at all that is of use.
   bool lost() const;
+  // How often a level has been shown that does not go on from the light that it had.
+  int jumps() const { return jumps_; }
   // Makes what place() has found out of date, a share of a level with each call; `frames` calls for a level, 1: all of
-  // it at once. A level keeps its old light until the new one is complete; one that has none of use is made at once.
+  // it at once. A level keeps its old light until the new one is complete; the coarser one stands in for one that has
+  // none. The coarsest is made at once when it has none of use.
   // Leaves framebuffer, program and viewport changed.
   void draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, int frames);
   // What is there, for positions relative to that of the last place().
@@ -114,7 +117,7 @@ class LightVolume {
   // Of the last place().
   Purpose wanted_;
   Shell shell_{};
-  int scene_ = -1;
+  int scene_ = -1, jumps_ = 0;
   glm::dvec2 inAir_{0.0};
 };
 

@@ -83,7 +83,11 @@ struct View::State {
   int current = 0;          // history that was written last
   int frames = 0;           // since the last reset
   int still = 0;            // frames since anything moved
-  int scene = 0;            // which of the renderer's scenes it shows
+  int same = 0;             // and since the light became complete
+  int scene = 0, quality = 0;  // which of the renderer's scenes it shows, and how
+  int jumps = 0;            // the light volume's by then
+  int changing = 0;         // frames in which the history still holds another sky or light
+  bool complete = true;     // the last frame's light
   bool lightDrawn = false;  // its frame to come has had its share of the light volume's work
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
@@ -103,7 +107,7 @@ View::View(View&&) noexcept = default;
 View& View::operator=(View&&) noexcept = default;
 void View::reset() {
   state_->frames = 0;
-  state_->still = 0;
+  state_->still = state_->same = state_->changing = 0;
   state_->last.reset();
   state_->travel = glm::dvec2(0.0);
 }
@@ -117,7 +121,7 @@ struct Renderer::State {
   Timers timers;
   Scene scene;
   bool hasScene = false;
-  int sceneNumber = 0, cloudsNumber = 0;
+  int sceneNumber = 0, qualityNumber = 0, cloudsNumber = 0;
   Heavens heavens;
   std::map<std::string, gl::Program> composites;  // by the defines of the variant
   glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};       // of the light: by night it is the moon's
@@ -230,7 +234,11 @@ struct Renderer::State {
   glm::dvec2 carriedBy(const Drift& drift, std::size_t cloud) const;
   bool lit() const;
   // Over how many frames weather and light may come; after a cut nobody has seen the old ones.
-  int framesOf(const View::State& view) const { return view.frames == 0 ? 1 : scene.quality.lightFrames; }
+  int framesOf(const View::State& view, const Frame& frame) const {
+    return view.frames == 0 && frame.waitForLight ? 1 : scene.quality.lightFrames;
+  }
+  // Weather and light are those of this sky, here.
+  bool complete() const { return !(light && light->stale()) && !(weather && weather->changing()); }
   void surround(View::State& view, const glm::dvec2& place);
   void makeMarch();
   void bindClouds(const gl::Program& program, int unit) const;
@@ -248,7 +256,7 @@ struct Renderer::State {
 
   // The passes, in order.
   void skyPass(const glm::dvec3& position);
-  void weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift);
+  void weatherPass(const glm::dvec2& place, const Drift& drift, int frames);
   void lightPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
                  const FrameParams& params);
   void airShadePass(View::State& view, const Frame& frame);
@@ -389,12 +397,14 @@ void Renderer::setQuality(const Quality& quality) {
   if (!s.hasScene) throw Error(ErrorKind::failed, "", "a quality was set before setScene()");
   Quality next = quality;
   next.preset = s.scene.quality.preset;
+  // How fast light comes does not change the picture.
+  s.scene.quality.lightFrames = next.lightFrames;
   if (next == s.scene.quality) return;
   const gl::StateGuard guard(s.gl);
   s.gl.BindVertexArray(s.triangle.id());
   s.scene.quality = next;
   s.hostView = nullptr;
-  ++s.sceneNumber;
+  ++s.qualityNumber;
   s.makeMarch();
 }
 
@@ -526,10 +536,11 @@ void Renderer::State::skyPass(const glm::dvec3& position) {
   sky.update(scene.atmosphere, heavens.lights, std::max(altitude, 0.0), scene.ground.albedo, userSky.get());
 }
 
-void Renderer::State::weatherPass(const View::State& view, const glm::dvec2& place, const Drift& drift) {
+// `frames`: over how many it may come.
+void Renderer::State::weatherPass(const glm::dvec2& place, const Drift& drift, int frames) {
   if (!weather) return;
   const bool changing = weather->changing();
-  const int most = framesOf(view) == 1 ? WeatherLevels::kAll : 1;
+  const int most = frames == 1 ? WeatherLevels::kAll : 1;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     weather->update(static_cast<int>(i), scene.layers[i], place, drift, scene.seed, weatherProgram, framebuffer,
                     weatherBuffer, maps[i] ? maps[i] : white, most);
@@ -581,7 +592,8 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
   layersBuffer.upload(&block, sizeof block);
   // Light follows weather that changes, or goes along when that has no end.
   around->waited = weather && weather->changing() ? around->waited + 1 : 0;
-  const bool waits = around->waited > 0 && around->waited <= kMostWait && framesOf(view) > 1 && light && !light->lost();
+  const int frames = framesOf(view, frame);
+  const bool waits = around->waited > 0 && around->waited <= kMostWait && frames > 1 && light && !light->lost();
   if (light && light->stale() && !view.lightDrawn && !waits) {
     gl.UseProgram(lightProgram.id());
     lightProgram.bindBlock("Layers", kLayersBlock);
@@ -590,7 +602,7 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     if (sheetProgram.id()) sheetProgram.bindBlock("Layers", kLayersBlock);
     glm::vec4 heights(-1e9f);
     for (std::size_t i = 0; i < scene.sheets.size(); ++i) heights[static_cast<int>(i)] = scene.sheets[i].height;
-    light->draw({lightProgram, sheetProgram, heights}, framebuffer, framesOf(view));
+    light->draw({lightProgram, sheetProgram, heights}, framebuffer, frames);
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
   }
@@ -827,7 +839,7 @@ void Renderer::prepare(View& view, const Frame& frame) {
       frameParams(frame, std::max(v.width, 1), std::max(v.height, 1), std::max(v.interleave, 1), s.scene.quality, 0);
   s.surround(v, place);
   s.skyPass(position);
-  s.weatherPass(v, place, drift);
+  s.weatherPass(place, drift, s.framesOf(v, frame));
   s.lightPass(v, frame, position, drift, params);
   v.lightDrawn = true;
   s.frameBuffer.upload(&params, sizeof params);
@@ -880,6 +892,7 @@ Outputs Renderer::outputs(const View& view) const {
     o.snow = law::snowShare(0.0f, freezingLevel(s.scene.precipitation));
   }
   if (s.light) o.sunDepth = nameOf(s.light->sun());
+  o.complete = s.complete();
   o.toSun = hostAxes(glm::dvec3(s.sunDirection), v.up);
   o.sunIrradiance = s.sky.light().sunIrradiance;
   o.skyIrradiance = s.sky.light().skyIrradiance;
@@ -903,36 +916,53 @@ void Renderer::render(View& view, const Frame& frame) {
     view.reset();
     v.exposure = s.exposure();
   }
-  FrameParams params = frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
-  const FrameParams unlocked = params;
-  params.wind.w *= v.exposure;
-  params.options.x = 1.0f / v.exposure;
+  const auto paramsNow = [&] {
+    return frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
+  };
+  const auto exposed = [&](FrameParams params) {
+    params.wind.w *= v.exposure;
+    params.options.x = 1.0f / v.exposure;
+    return params;
+  };
+  const FrameParams unlocked = paramsNow();
+  FrameParams params = exposed(unlocked);
   if (v.last && v.last->options.z != params.options.z) view.reset();
-  if (v.last) v.travel += travelled(params, *v.last);
-  lockGrid(params, v.travel);
-  const bool moved = !v.last || !sameView(*v.last, params) || v.lastPosition != glm::dvec3(place, position.z) ||
-                     v.lastTime != frame.time || v.scene != s.sceneNumber;
-  v.still = moved ? 0 : v.still + 1;
-  const int turns = v.interleave * v.interleave, round = v.still / turns;
-  const bool begun = v.still == v.frames && v.frames < turns;
-  const History history = v.frames == 0 || !s.scene.quality.reprojection ? History::none
-                          : begun                                        ? History::begun
-                          : v.still > 0                                  ? History::still
-                                                                         : History::moved;
-  setHistory(params, v.last ? &*v.last : nullptr, glm::dvec3(place, position.z) - v.lastPosition,
-             driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), history,
-             1.0f / static_cast<float>(round + 1));
-  s.frameBuffer.upload(&params, sizeof params);
 
   s.timers.begin();
   s.lightningOf(place, frame.time);
   s.skyPass(position);
   s.timers.mark("sky tables");
-  s.weatherPass(v, place, drift);
+  s.weatherPass(place, drift, s.framesOf(v, frame));
   s.timers.mark("weather");
   s.lightPass(v, frame, position, drift, unlocked);
   v.lightDrawn = false;
   s.timers.mark("light volume");
+
+  const int turns = v.interleave * v.interleave, jumps = s.light ? s.light->jumps() : 0;
+  const bool jumped = v.jumps != jumps;
+  const bool stands = v.last && sameView(*v.last, params) && v.lastPosition == glm::dvec3(place, position.z) &&
+                      v.lastTime == frame.time && v.scene == s.sceneNumber && v.quality == s.qualityNumber;
+  // A picture that is not whole yet begins anew with the new light.
+  if (stands && jumped && v.still + 1 == v.frames && v.frames < turns) {
+    view.reset();
+    params = exposed(paramsNow());
+  }
+  if (v.last) v.travel += travelled(params, *v.last);
+  lockGrid(params, v.travel);
+  v.still = stands && v.last ? v.still + 1 : 0;
+  v.same = v.still > 0 && v.complete && !jumped ? v.same + 1 : 0;
+  if (v.scene != s.sceneNumber || jumped) v.changing = turns;
+  const bool begun = v.still == v.frames && v.frames < turns;
+  const History history = v.frames == 0 || !s.scene.quality.reprojection ? History::none
+                          : begun                                        ? History::begun
+                          : v.changing > 0                               ? History::changed
+                          : v.still > 0                                  ? History::still
+                                                                         : History::moved;
+  setHistory(params, v.last ? &*v.last : nullptr, glm::dvec3(place, position.z) - v.lastPosition,
+             driftOffset(drift) - driftOffset(Drift{drift.windSpeed, drift.windFrom, v.lastTime}), history,
+             1.0f / static_cast<float>(v.same / turns + 1));
+  s.frameBuffer.upload(&params, sizeof params);
+
   s.airShadePass(v, frame);
   s.timers.mark("air shade");
   s.marchPass(v, frame);
@@ -950,6 +980,10 @@ void Renderer::render(View& view, const Frame& frame) {
   v.lastPosition = glm::dvec3(place, position.z);
   v.lastTime = frame.time;
   v.scene = s.sceneNumber;
+  v.quality = s.qualityNumber;
+  v.complete = s.complete();
+  v.jumps = jumps;
+  v.changing = std::max(v.changing - 1, 0);
   ++v.frames;
   s.keepForHost(v, frame, params);
 }

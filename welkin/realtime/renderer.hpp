@@ -47,6 +47,9 @@ struct Frame {
   double time = 0.0;         // s, moves the clouds
   glm::dvec3 velocity{0.0};  // of the eye in m/s: rain and snow streak along with it
   float preExposure = 1.0f;  // factor on kcd/m^2 before it is written
+  // Of a view's first frame: waits for weather and light that are complete, however long that takes. false: it begins
+  // with light that is coarse, and the next frames make it finer (quality.light_frames; Outputs::complete).
+  bool waitForLight = true;
   Output output = Output::light;
 };
 
@@ -57,8 +60,7 @@ class View {
   ~View();
   View(View&&) noexcept;
   View& operator=(View&&) noexcept;
-  // Forgets what it has seen: call it after a cut. The next frame waits for weather and light that are complete,
-  // however long that takes; other frames spread such work (quality.light_frames).
+  // Forgets what it has seen: call it after a cut. The next frame is a first one again (Frame::waitForLight).
   void reset();
 
  private:
@@ -124,6 +126,8 @@ struct Outputs {
   // R16F, 3D: optical depth of the clouds toward the sun, in nested squares round the eye: the clouds' shadow map. None
   // without quality.lightVolume and with lighting.model nubis.
   TextureName sunDepth;
+  // Weather and light are those of this sky at this place; else the frames to come still change them.
+  bool complete = true;
   // Light for the host's own lamps, linear Rec.709 in klx; by night the moon is the sun. At the eye and without clouds:
   glm::dvec3 toSun{0.0, 0.0, 1.0};  // unit vector in the host's axes
   glm::vec3 sunIrradiance{0.0f};    // on a plane that faces the sun

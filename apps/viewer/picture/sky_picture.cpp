@@ -19,6 +19,8 @@ namespace {
 constexpr int kRounds = 4;
 // How far the governor may go down with the resolution of a moving picture.
 constexpr float kLeastScale = 0.42f;
+// Frames over which a level of light may come while nothing moves that could stutter.
+constexpr int kLightFramesAtRest = 2;
 
 constexpr const char* kShowText = R"(
 #include "welkin/base/law.glsl"
@@ -116,7 +118,8 @@ struct Canvas {
   gl::Framebuffer framebuffer, withDepth;
   GLint name = 0, depthName = 0;
   realtime::View view;
-  int frames = 0;  // since it was begun anew
+  int frames = 0;        // since it was begun anew
+  bool complete = true;  // the last one's light
 
   // `goesOn`: what was seen is seen on, at another resolution.
   void fit(const gl::Api& gl, int width, int height, bool goesOn = false) {
@@ -159,6 +162,7 @@ struct SkyPicture::State {
   gl::Texture meter;
   Canvas moving, still;
   bool stillShown = false;
+  bool waitsForLight = false;
   Quality wanted, current;  // the scene's; the renderer's
   double target = 0.0;      // s a frame while something moves; 0: ungoverned
   std::optional<realtime::Governor> governor;
@@ -193,8 +197,8 @@ struct SkyPicture::State {
   }
   const Quality& movingQuality() const { return governor ? governor->quality() : wanted; }
 
-  // Frames after which the moving picture makes way: one round, so that every pixel has been marched.
-  int movingFrames() const { return turnsOf(movingQuality()); }
+  // The moving picture makes way after one round, so that every pixel has been marched, in light that is complete.
+  bool movingEnough() const { return moving.frames >= turnsOf(movingQuality()) && moving.complete; }
 
   void use(const Quality& quality) {
     if (quality == current) return;
@@ -206,6 +210,7 @@ struct SkyPicture::State {
     realtime::Frame frame = realtime::frameOf(*camera, canvas.light.width(), canvas.light.height());
     frame.framebuffer = static_cast<unsigned>(canvas.name);
     frame.time = time;
+    frame.waitForLight = waitsForLight || &canvas == &still;
     gl.BindFramebuffer(GL_FRAMEBUFFER, frame.framebuffer);
     gl.Disable(GL_SCISSOR_TEST);
     gl.ClearColor(0.0f, 0.0f, 0.0f, 1.0f);
@@ -215,6 +220,7 @@ struct SkyPicture::State {
     else
       renderer.render(canvas.view, frame);
     if (counting) gatherCounts(canvas);
+    canvas.complete = renderer.outputs(canvas.view).complete;
     ++canvas.frames;
   }
 
@@ -310,6 +316,8 @@ void SkyPicture::cut() {
   if (state_->governor) state_->governor->cut();
 }
 
+void SkyPicture::waitForLight(bool on) { state_->waitsForLight = on; }
+
 void SkyPicture::govern(double seconds) {
   state_->target = seconds;
   state_->makeGovernor();
@@ -341,10 +349,13 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
     s.moving.fit(s.gl, scaled(width), scaled(height), sameWindow);
     s.moving.frames = 0;
   }
-  if (s.moving.frames < s.movingFrames()) {
-    s.use(s.movingQuality());
+  if (!s.movingEnough()) {
+    Quality quality = s.movingQuality();
+    if (!moves) quality.lightFrames = std::min(quality.lightFrames, kLightFramesAtRest);
+    s.use(quality);
+    const bool lightAlone = !moves && !s.moving.complete;
     s.render(s.moving);
-    s.drewMoving = true;
+    s.drewMoving = !lightAlone;
     return true;
   }
   if (settled()) return false;
@@ -359,7 +370,7 @@ bool SkyPicture::draw(const Camera& camera, double time, int width, int height, 
 
 bool SkyPicture::settled() const {
   const State& s = *state_;
-  if (s.changed || !s.moving.light || s.moving.frames < s.movingFrames()) return false;
+  if (s.changed || !s.moving.light || !s.movingEnough()) return false;
   return s.still.frames >= kRounds * turnsOf(s.wanted);
 }
 

@@ -31,8 +31,11 @@ class SkyPicture {
   void setScene(const Scene& scene, const realtime::CustomTextures& textures);
   // Draws this under the sky from now on, as long as it lives; its origin moves along with the camera.
   void setForeground(Foreground* foreground);
-  // Forgets what was seen: the next frame shows the new sky whole, however long that takes.
+  // Forgets what was seen.
   void cut();
+  // Whether the first frame, and that after a cut, waits for light that is complete, however long that takes. Else
+  // coarse light stands in, and becomes finer over the next frames.
+  void waitForLight(bool on);
 
   // While something moves, quality gives way so that a frame takes `seconds`; 0: it does not.
   void govern(double seconds);

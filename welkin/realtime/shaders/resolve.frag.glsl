@@ -11,7 +11,8 @@ uniform sampler2D uHistory;
 layout(location = 0) out vec4 oColour;
 
 // By which old pixels may leave the range of the new ones round them, in shares of it, for detail between these: by the
-// first, and by the second over what moves against the far in a frame, in pixels. Nothing else can uncover or cover.
+// first, and by the second over what moves against the far in a frame, in pixels: nothing else can uncover or cover,
+// as long as the sky stays the same.
 const float kMargin = 0.25, kMarginMoved = 0.25;
 
 vec4 historyAt(vec2 uv) {
@@ -98,9 +99,9 @@ void main() {
   vec2 before = shown.xy;
   bool known = uTiming.z > 0.5 && shown.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
   vec4 old = historyAt(before);
-  if (uTiming.z < 1.5) {
+  if (uTiming.z < 2.5) {
     float moved = length((shownAt(vec4(dir, 0.0)).xy - before) * uSize.xy);
-    vec4 margin = (kMargin + kMarginMoved / max(moved, 1e-3)) * (high - low);
+    vec4 margin = (kMargin + (uTiming.z > 1.5 ? kMarginMoved / max(moved, 1e-3) : 0.0)) * (high - low);
     // Over a host's picture, opacity that it gains comes with the new light, and what it loses takes its own along.
     float left = clamp(old.a, low.a - margin.a, high.a + margin.a), gain = old.a - left;
     if (uOptions.z != 1.0)
