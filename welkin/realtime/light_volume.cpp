@@ -123,7 +123,11 @@ bool LightVolume::stale() const {
   return job_.has_value();
 }
 
-bool LightVolume::lost() const { return useless(extent_.levels - 1); }
+bool LightVolume::lost(bool standIn) const {
+  for (int i = standIn ? extent_.levels - 1 : 0; i < extent_.levels; ++i)
+    if (useless(i)) return true;
+  return false;
+}
 
 law::LightVolumeParams LightVolume::params() const {
   law::LightVolumeParams p{};
@@ -165,8 +169,8 @@ LightVolume::Job LightVolume::nextJob() {
   return job;
 }
 
-void LightVolume::draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, int frames) {
-  const auto mustNow = [&] { return lost() || (frames <= 1 && stale()); };
+void LightVolume::draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, int frames, bool standIn) {
+  const auto mustNow = [&] { return lost(standIn) || (frames <= 1 && stale()); };
   if (mustNow()) {
     job_.reset();
     last_ = 0;

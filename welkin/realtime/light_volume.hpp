@@ -37,15 +37,16 @@ class LightVolume {
   void forget();
   // Whether draw() has anything to do.
   bool stale() const;
-  // Whether there is no light at all that is of use.
-  bool lost() const;
+  // Whether there is a level without light that is of any use; with `standIn`, only of the coarsest, which can stand in
+  // for the others.
+  bool lost(bool standIn) const;
   // How often a level has been shown that does not go on from the light that it had.
   int jumps() const { return jumps_; }
   // Makes what place() has found out of date, a share of a level with each call; `frames` calls for a level, 1: all of
-  // it at once. A level keeps its old light until the new one is complete; the coarser one stands in for one that has
-  // none. The coarsest is made at once when it has none of use.
+  // it at once. A level keeps its old light until the new one is complete. While light is lost(standIn) it is made at
+  // once.
   // Leaves framebuffer, program and viewport changed.
-  void draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, int frames);
+  void draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, int frames, bool standIn);
   // What is there, for positions relative to that of the last place().
   law::LightVolumeParams params() const;
 

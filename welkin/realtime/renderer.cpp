@@ -86,7 +86,6 @@ struct View::State {
   int same = 0;             // and since the light became complete
   int scene = 0, quality = 0;  // which of the renderer's scenes it shows, and how
   int jumps = 0;            // the light volume's by then
-  int changing = 0;         // frames in which the history still holds another sky or light
   bool complete = true;     // the last frame's light
   bool lightDrawn = false;  // its frame to come has had its share of the light volume's work
   std::optional<FrameParams> last;
@@ -107,7 +106,7 @@ View::View(View&&) noexcept = default;
 View& View::operator=(View&&) noexcept = default;
 void View::reset() {
   state_->frames = 0;
-  state_->still = state_->same = state_->changing = 0;
+  state_->still = state_->same = 0;
   state_->last.reset();
   state_->travel = glm::dvec2(0.0);
 }
@@ -593,7 +592,8 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
   // Light follows weather that changes, or goes along when that has no end.
   around->waited = weather && weather->changing() ? around->waited + 1 : 0;
   const int frames = framesOf(view, frame);
-  const bool waits = around->waited > 0 && around->waited <= kMostWait && frames > 1 && light && !light->lost();
+  const bool waits = around->waited > 0 && around->waited <= kMostWait && frames > 1 && light &&
+                     !light->lost(!frame.waitForLight);
   if (light && light->stale() && !view.lightDrawn && !waits) {
     gl.UseProgram(lightProgram.id());
     lightProgram.bindBlock("Layers", kLayersBlock);
@@ -602,7 +602,7 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     if (sheetProgram.id()) sheetProgram.bindBlock("Layers", kLayersBlock);
     glm::vec4 heights(-1e9f);
     for (std::size_t i = 0; i < scene.sheets.size(); ++i) heights[static_cast<int>(i)] = scene.sheets[i].height;
-    light->draw({lightProgram, sheetProgram, heights}, framebuffer, frames);
+    light->draw({lightProgram, sheetProgram, heights}, framebuffer, frames, !frame.waitForLight);
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
   }
@@ -951,11 +951,10 @@ void Renderer::render(View& view, const Frame& frame) {
   lockGrid(params, v.travel);
   v.still = stands && v.last ? v.still + 1 : 0;
   v.same = v.still > 0 && v.complete && !jumped ? v.same + 1 : 0;
-  if (v.scene != s.sceneNumber || jumped) v.changing = turns;
   const bool begun = v.still == v.frames && v.frames < turns;
   const History history = v.frames == 0 || !s.scene.quality.reprojection ? History::none
                           : begun                                        ? History::begun
-                          : v.changing > 0                               ? History::changed
+                          : v.scene != s.sceneNumber || jumped           ? History::changed
                           : v.still > 0                                  ? History::still
                                                                          : History::moved;
   setHistory(params, v.last ? &*v.last : nullptr, glm::dvec3(place, position.z) - v.lastPosition,
@@ -983,7 +982,6 @@ void Renderer::render(View& view, const Frame& frame) {
   v.quality = s.qualityNumber;
   v.complete = s.complete();
   v.jumps = jumps;
-  v.changing = std::max(v.changing - 1, 0);
   ++v.frames;
   s.keepForHost(v, frame, params);
 }

@@ -47,8 +47,9 @@ struct Frame {
   double time = 0.0;         // s, moves the clouds
   glm::dvec3 velocity{0.0};  // of the eye in m/s: rain and snow streak along with it
   float preExposure = 1.0f;  // factor on kcd/m^2 before it is written
-  // Of a view's first frame: waits for weather and light that are complete, however long that takes. false: it begins
-  // with light that is coarse, and the next frames make it finer (quality.light_frames; Outputs::complete).
+  // Where nothing is known of the light, in a view's first frame, far from the last one, under another sky: waits for
+  // weather and light that are complete, however long that takes. false: begins with light that is coarse, and the next
+  // frames make it finer (quality.light_frames; Outputs::complete).
   bool waitForLight = true;
   Output output = Output::light;
 };

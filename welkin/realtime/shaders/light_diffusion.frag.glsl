@@ -13,6 +13,10 @@ in vec2 vUv;
 layout(location = 0) out vec4 oLight;
 layout(location = 1) out vec4 oShare;
 
+// Towers of a cloud light each other: what is clear beside a cell sends it what its own neighbours send there, not the
+// mean of the level, unless light goes farther than this (m; by measured error on bench/error.cpp's cumulus).
+const float kNearby = 2000.0;
+
 float densityAt(ivec3 cell) { return texelFetch(uDensity, cell, 0).x; }
 
 void main() {
@@ -28,7 +32,8 @@ void main() {
     ivec3 at = ivec3(clamp(cell.xy + ivec2(i == 0 ? -1 : i == 1 ? 1 : 0, i == 2 ? -1 : i == 3 ? 1 : 0), 0, last), cell.z);
     vec2 way = exchange(own, densityAt(at), width);
     way.x *= uSideways;
-    sum += way.x * texelFetch(uDiffuse, at, 0).xy + way.y * beside;
+    vec2 there = texelFetch(uDiffuse, at, 0).xy;
+    sum += way.x * there + way.y * mix(beside, there, uSideways * exp(-width / kNearby));
     weights += way.x + way.y;
   }
   vec2 up = exchange(own, cell.z == top ? 0.0 : densityAt(cell + ivec3(0, 0, 1)), uSlice.y);
