@@ -163,14 +163,8 @@ void Viewer::draw(double seconds) {
     governed_ = pace.wantedRate;
     picture_.govern(governed_ > 0.0f ? 1.0 / static_cast<double>(governed_) : 0.0);
   }
-  if (picture_.draw(scene.camera, scene.time, part.width, part.height, scaleFor(part))) {
-    gl_.Finish();
-    picture_.took(secondsSince(start));
-    const double ms = 1000.0 * secondsSince(start);
-    pace.frameMs = pace.frameMs > 0.0 ? 0.8 * pace.frameMs + 0.2 * ms : ms;
-    pace.times[pace.next++ % Pace::kKept] = static_cast<float>(ms);
-    if (bench_.panels && bench_.tab == Tab::pace) pace.cost = picture_.cost();
-  }
+  const bool drawn = picture_.draw(scene.camera, scene.time, part.width, part.height, scaleFor(part));
+  if (drawn && bench_.panels && bench_.tab == Tab::pace) pace.cost = picture_.cost();
   expose(seconds);
   tendReference();
   gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
@@ -183,6 +177,12 @@ void Viewer::draw(double seconds) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, platform_->framebuffer());
   interface_.draw();
   gl_.check("drawing the window");
+  if (!drawn) return;
+  gl_.Finish();
+  const double took = secondsSince(start);
+  picture_.took(took);
+  pace.frameMs = pace.frameMs > 0.0 ? 0.8 * pace.frameMs + 0.2 * 1000.0 * took : 1000.0 * took;
+  pace.times[pace.next++ % Pace::kKept] = static_cast<float>(1000.0 * took);
 }
 
 void Viewer::command(const ScriptStep& step) {

@@ -18,6 +18,7 @@ constexpr double kEarth = 6360e3;  // m
 constexpr double kHigh = 60.0, kHighest = 80.0;
 constexpr double kShadeReach = 500.0;   // m from the aircraft to its shadow: land_shader.hpp
 constexpr double kRunwayReach = 260.0;  // m beyond the runway's edges that are evened: the same
+constexpr int kCoarseWidth = 480;       // pixels of a picture below which half of the vertices will do
 constexpr float kShore = 0.4f;          // m about the sea's level between which there is both: the same
 
 // Whether a box that is given by its corners may show.
@@ -41,29 +42,32 @@ LandMesh::LandMesh(const gl::Api& gl, const Terrain& terrain)
                                            gl::Filter::linear, gl::Addressing::clamp, nullptr) {
   std::vector<std::uint16_t> indices;
   // A hole leaves its outermost cells to both, against gaps.
-  const auto add = [&](Ring& ring, const glm::ivec2& low, const glm::ivec2& high) {
+  const auto add = [&](Ring& ring, int step, const glm::ivec2& low, const glm::ivec2& high) {
     for (int block = 0; block < kBlocks * kBlocks; ++block) {
       Block& b = ring.blocks[static_cast<std::size_t>(block)];
       b.offset = indices.size() * sizeof(std::uint16_t);
-      for (int y = 0; y < kBlockCells; ++y)
-        for (int x = 0; x < kBlockCells; ++x) {
+      for (int y = 0; y < kBlockCells; y += step)
+        for (int x = 0; x < kBlockCells; x += step) {
           const int i = block % kBlocks * kBlockCells + x, j = block / kBlocks * kBlockCells + y;
-          if (i > low.x && j > low.y && i < high.x - 1 && j < high.y - 1) continue;
-          const int at = j * (kCells + 1) + i, up = at + kCells + 1;
+          if (i > low.x && j > low.y && i < high.x - step && j < high.y - step) continue;
+          const int at = j * (kCells + 1) + i, up = at + step * (kCells + 1);
           // The diagonal runs from lower right to upper left, as the vertex shader's morph has it.
-          for (const int index : {at, at + 1, up, at + 1, up + 1, up})
+          for (const int index : {at, at + step, up, at + step, up + step, up})
             indices.push_back(static_cast<std::uint16_t>(index));
         }
       b.count = static_cast<GLsizei>(indices.size() - b.offset / sizeof(std::uint16_t));
     }
   };
-  add(rings_[0], glm::ivec2(0), glm::ivec2(0));
-  for (int y = 0; y < 3; ++y)
-    for (int x = 0; x < 3; ++x) {
-      const glm::ivec2 low = glm::ivec2(kCells / 4 - 1) + glm::ivec2(x, y);
-      const int ring = 1 + 3 * y + x;
-      add(rings_[static_cast<std::size_t>(ring)], low, low + kCells / 2);
-    }
+  for (const int step : {1, 2}) {
+    std::array<Ring, 10>& rings = rings_[stepIndex(step)];
+    add(rings[0], step, glm::ivec2(0), glm::ivec2(0));
+    for (int y = 0; y < 3; ++y)
+      for (int x = 0; x < 3; ++x) {
+        const glm::ivec2 low = glm::ivec2(kCells / 4) + 2 * (glm::ivec2(x, y) - 1);
+        const int ring = 1 + 3 * y + x;
+        add(rings[static_cast<std::size_t>(ring)], step, low, low + kCells / 2);
+      }
+  }
   gl.GenVertexArrays(1, &array_);
   gl.BindVertexArray(array_);
   gl.GenBuffers(1, &indices_);
@@ -78,13 +82,14 @@ LandMesh::~LandMesh() {
   gl_.DeleteBuffers(1, &indices_);
 }
 
-void LandMesh::update(const glm::dvec3& eye) {
+void LandMesh::update(const glm::dvec3& eye, int width) {
+  step_ = width < kCoarseWidth ? 2 : 1;
   const double above = eye.z - std::max(terrain_.height(eye.x, eye.y), 0.0);
   first_ = 0;
   while (first_ + 2 < kLevels && above > kHighest * cellOf(first_)) ++first_;
   sunken_ = static_cast<float>(std::clamp((above / cellOf(first_) - kHigh) / (kHighest - kHigh), 0.0, 1.0));
   for (int l = first_; l < kLevels; ++l) {
-    const double snap = 2.0 * cellOf(l);
+    const double snap = 4.0 * cellOf(l);  // every second vertex falls on one of the next level
     const glm::dvec2 centre(std::round(eye.x / snap) * snap, std::round(eye.y / snap) * snap);
     const glm::dvec2 corner = centre - 0.5 * kCells * cellOf(l);
     const Level& level = levels_[static_cast<std::size_t>(l)];
@@ -131,12 +136,12 @@ void LandMesh::make(int index, const glm::dvec2& corner) {
       t[2] = (at(x, y + 1) - at(x, y - 1)) / twice;
       t[3] = level.woods[place(x + 1, y + 1)];
     }
-  // The next level, which shows through towards the edge, may have its texels two aside.
+  // The next level, which shows through towards the edge, may have its texels four aside.
   for (int block = 0; block < kBlocks * kBlocks; ++block) {
     glm::vec2 range(std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest());
     const int x0 = block % kBlocks * 2 * kBlockCells, y0 = block / kBlocks * 2 * kBlockCells;
-    for (int y = std::max(y0 - 2, -1); y <= std::min(y0 + 2 * kBlockCells + 2, kTexels); ++y)
-      for (int x = std::max(x0 - 2, -1); x <= std::min(x0 + 2 * kBlockCells + 2, kTexels); ++x) {
+    for (int y = std::max(y0 - 4, -1); y <= std::min(y0 + 2 * kBlockCells + 4, kTexels); ++y)
+      for (int x = std::max(x0 - 4, -1); x <= std::min(x0 + 2 * kBlockCells + 4, kTexels); ++x) {
         range.x = std::min(range.x, at(x, y));
         range.y = std::max(range.y, at(x, y));
       }
@@ -147,10 +152,11 @@ void LandMesh::make(int index, const glm::dvec2& corner) {
 }
 
 const LandMesh::Ring& LandMesh::ringOf(int index) const {
-  if (index == first_) return rings_[0];
+  const std::array<Ring, 10>& rings = rings_[stepIndex(step_)];
+  if (index == first_) return rings[0];
   const Level &level = levels_[static_cast<std::size_t>(index)], &finer = levels_[static_cast<std::size_t>(index) - 1];
-  const glm::dvec2 hole = (finer.corner - level.corner) / cellOf(index) - (kCells / 4 - 1.0);
-  return rings_[static_cast<std::size_t>(1 + 3 * std::lround(hole.y) + std::lround(hole.x))];
+  const glm::dvec2 hole = 0.5 * ((finer.corner - level.corner) / cellOf(index) - kCells / 4.0) + 1.0;
+  return rings[static_cast<std::size_t>(1 + 3 * std::lround(hole.y) + std::lround(hole.x))];
 }
 
 LandKind LandMesh::kindOf(const glm::dvec2& low, const glm::dvec2& high, const glm::vec2& range,
@@ -201,6 +207,7 @@ void LandMesh::draw(const gl::Program& program, const glm::dvec3& eye, std::span
   gl_.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
   gl_.BindTexture(texture_.target(), texture_.id());
   gl_.Uniform1i(program.uniform("uLand"), unit);
+  gl_.Uniform1i(program.uniform("uStep"), step_);
   int now = -1;
   for (const Block& block : blocks) {
     if (block.level != now) {

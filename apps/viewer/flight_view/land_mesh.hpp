@@ -36,8 +36,9 @@ class LandMesh {
   };
   using Blocks = std::array<std::vector<Block>, kLandKinds>;
 
-  // Follows the eye: levels that it has moved over get what is new.
-  void update(const glm::dvec3& eye);
+  // Follows the eye: levels that it has moved over get what is new. `width` of the picture in pixels: small ones are
+  // drawn with every second vertex alone.
+  void update(const glm::dvec3& eye, int width);
   // What may be in sight, by kind, the nearest level first. `clipFromEye`: of positions relative to the eye;
   // `aircraft`: its place.
   Blocks inSight(const glm::dvec3& eye, const glm::mat4& clipFromEye, const glm::dvec3& aircraft) const;
@@ -49,7 +50,7 @@ class LandMesh {
  private:
   static constexpr int kBlocks = 8, kBlockCells = kCells / kBlocks;  // a side
   static constexpr int kWide = kTexels + 2;                          // heights a side: with a border for slopes
-  // Indices of a level round the finer one inside it, which stands in its middle or a cell aside.
+  // Indices of a level round the finer one inside it, which stands in its middle or two cells aside.
   struct Ring {
     std::array<Block, kBlocks * kBlocks> blocks{};
   };
@@ -60,6 +61,7 @@ class LandMesh {
   };
   static double cellOf(int level) { return kFinest * (1 << level); }
   void make(int level, const glm::dvec2& corner);
+  static std::size_t stepIndex(int step) { return step == 1 ? 0 : 1; }
   const Ring& ringOf(int level) const;
   glm::vec4 cornerOf(int level, const glm::dvec3& eye) const;
   LandKind kindOf(const glm::dvec2& low, const glm::dvec2& high, const glm::vec2& range,
@@ -71,7 +73,8 @@ class LandMesh {
   gl::Texture texture_;         // height, slopes to east and north, woods; a layer for each level
   int first_ = 0;               // the finest level that is drawn: from high up the finest ones show nothing
   float sunken_ = 0.0f;         // how far that one has taken the shape of the next
-  std::array<Ring, 10> rings_;  // whole, then by the place of the hole
+  int step_ = 1;                // from vertex to vertex, in cells
+  std::array<std::array<Ring, 10>, 2> rings_;  // for every vertex and every second: whole, then by the hole's place
   GLuint array_ = 0, indices_ = 0;
 };
 

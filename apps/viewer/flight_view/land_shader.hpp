@@ -10,6 +10,7 @@ uniform vec4 uCorner;  // of the level from the eye; size of a cell, m; how far 
 uniform vec2 uLevel;   // its number; 1 where a coarser level follows
 uniform mat4 uClipFromEye;
 uniform float uEyeHeight;
+uniform int uStep;     // from vertex to vertex, in cells
 const int kCells = 128;
 float heightAt(ivec2 ij) { return max(texelFetch(uLand, ivec3(2 * ij, int(uLevel.x + 0.5)), 0).r, 0.0); }
 void main() {
@@ -18,7 +19,7 @@ void main() {
   // Toward the edge the land takes the shape of the next level.
   float away = max(abs(place.x), abs(place.y)) / uCorner.z;
   float blend = max(clamp((away - 50.0) / 12.0, 0.0, 1.0) * uLevel.y, uCorner.w);
-  ivec2 odd = ij & 1;
+  ivec2 odd = uStep * ((ij / uStep) & 1);
   float height = heightAt(ij);
   if (blend > 0.0 && odd != ivec2(0)) {
     ivec2 aside = ivec2(odd.x, -odd.y);

@@ -237,7 +237,7 @@ void Scenery::drawShape(const realtime::Frame& frame, const Target& target, cons
 
 void Scenery::drawLand(const realtime::Frame& frame, const Target& target, const Bind& bind) {
   const glm::dvec3 eye = eyeOf(frame);
-  mesh_.update(eye);
+  mesh_.update(eye, frame.width);
   const Aircraft& aircraft = flight_.aircraft();
   const LandMesh::Blocks blocks = mesh_.inSight(eye, clipFromEye(frame), aircraft.position);
   gl_.Enable(GL_STENCIL_TEST);
