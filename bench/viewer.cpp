@@ -1,7 +1,7 @@
-// What `welkin view` and `welkin fly` take for a frame while something moves: scripts of two lengths without a window, so
-// that the difference is that of the frames alone, once light and governor have settled. With the sky's own quality, and
-// with quality that gives way for 25 frames a second. And how long a run of a single frame takes, start and end of the
-// process included.
+// What `welkin view` and `welkin fly` take for a frame while something moves: scripts of two lengths without a window,
+// so that the difference is that of the frames alone, once light and governor have settled. With the sky's own quality,
+// and with quality that gives way for 25 frames a second. And how long a run of a single frame takes, start and end of
+// the process included.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

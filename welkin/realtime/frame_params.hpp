@@ -20,8 +20,8 @@ FrameParams frameParams(const Frame& frame, int historyWidth, int historyHeight,
                         int frames);
 
 // What a view's history holds: nothing; a picture to be reprojected, of a sky or a light that was another one or of
-// this; one of a view that stands still; or, while such a view fills its blocks for the first time, marched pixels among
-// others that are to be filled in.
+// this; one of a view that stands still; or, while such a view fills its blocks for the first time, marched pixels
+// among others that are to be filled in.
 enum class History { none, changed, moved, still, begun };
 
 // Fills in what leads back to the last frame. `moved`: how the eye moved; `drifted`: how the air moved; `share` of the

@@ -80,14 +80,14 @@ struct View::State {
   int width = 0, height = 0, interleave = 0;
   gl::Texture marched, marchedDepth, samples, airShade;
   std::array<gl::Texture, 2> history;
-  int current = 0;          // history that was written last
-  int frames = 0;           // since the last reset
-  int still = 0;            // frames since anything moved
-  int same = 0;             // and since the light became complete
+  int current = 0;             // history that was written last
+  int frames = 0;              // since the last reset
+  int still = 0;               // frames since anything moved
+  int same = 0;                // and since the light became complete
   int scene = 0, quality = 0;  // which of the renderer's scenes it shows, and how
-  int jumps = 0;            // the light volume's by then
-  bool complete = true;     // the last frame's light
-  bool lightDrawn = false;  // its frame to come has had its share of the light volume's work
+  int jumps = 0;               // the light volume's by then
+  bool complete = true;        // the last frame's light
+  bool lightDrawn = false;     // its frame to come has had its share of the light volume's work
   std::optional<FrameParams> last;
   glm::dvec3 lastPosition{0.0};
   glm::dvec2 travel{0.0};  // of the picture over the history's grid (frame_params.hpp), pixels
@@ -592,8 +592,8 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
   // Light follows weather that changes, or goes along when that has no end.
   around->waited = weather && weather->changing() ? around->waited + 1 : 0;
   const int frames = framesOf(view, frame);
-  const bool waits = around->waited > 0 && around->waited <= kMostWait && frames > 1 && light &&
-                     !light->lost(!frame.waitForLight);
+  const bool waits =
+      around->waited > 0 && around->waited <= kMostWait && frames > 1 && light && !light->lost(!frame.waitForLight);
   if (light && light->stale() && !view.lightDrawn && !waits) {
     gl.UseProgram(lightProgram.id());
     lightProgram.bindBlock("Layers", kLayersBlock);
@@ -916,9 +916,7 @@ void Renderer::render(View& view, const Frame& frame) {
     view.reset();
     v.exposure = s.exposure();
   }
-  const auto paramsNow = [&] {
-    return frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames);
-  };
+  const auto paramsNow = [&] { return frameParams(frame, v.width, v.height, v.interleave, s.scene.quality, v.frames); };
   const auto exposed = [&](FrameParams params) {
     params.wind.w *= v.exposure;
     params.options.x = 1.0f / v.exposure;

@@ -70,10 +70,10 @@ class LandMesh {
   const gl::Api& gl_;
   const Terrain& terrain_;
   std::array<Level, kLevels> levels_;
-  gl::Texture texture_;         // height, slopes to east and north, woods; a layer for each level
-  int first_ = 0;               // the finest level that is drawn: from high up the finest ones show nothing
-  float sunken_ = 0.0f;         // how far that one has taken the shape of the next
-  int step_ = 1;                // from vertex to vertex, in cells
+  gl::Texture texture_;  // height, slopes to east and north, woods; a layer for each level
+  int first_ = 0;        // the finest level that is drawn: from high up the finest ones show nothing
+  float sunken_ = 0.0f;  // how far that one has taken the shape of the next
+  int step_ = 1;         // from vertex to vertex, in cells
   std::array<std::array<Ring, 10>, 2> rings_;  // for every vertex and every second: whole, then by the hole's place
   GLuint array_ = 0, indices_ = 0;
 };
