@@ -39,7 +39,6 @@ void Viewer::beginFlight() {
     std::error_code failed;
     std::filesystem::create_directories(options_.fly->frames, failed);
     if (failed) throw Error(ErrorKind::failed, options_.fly->frames, "cannot be made: " + failed.message());
-    picture_.waitForLight(true);
   }
   if (!options_.fly->record.empty()) requireWritable(options_.fly->record);
 }

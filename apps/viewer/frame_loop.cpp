@@ -60,7 +60,8 @@ Viewer::Viewer(const ViewerOptions& options)
   bench_.wantedTab = Tab::parameters;
   bench_.pace.scale = static_cast<float>(options.scale);
   // Scripts count frames, not seconds, and must not depend on the machine's pace.
-  if (!script_) bench_.pace.wantedRate = picture_.softwareDriver() ? 25.0f : 60.0f;
+  const double rate = script_ ? 0.0 : picture_.softwareDriver() ? 25.0 : 60.0;
+  bench_.pace.wantedRate = static_cast<float>(options.rate.value_or(rate));
   if (picture_.softwareDriver())
     bench_.say("No GPU was found: the processor draws, coarsely while something moves and in full at rest.");
   if (options.fly) beginFlight();
@@ -162,6 +163,7 @@ void Viewer::draw(double seconds) {
   if (pace.wantedRate != governed_) {
     governed_ = pace.wantedRate;
     picture_.govern(governed_ > 0.0f ? 1.0 / static_cast<double>(governed_) : 0.0);
+    picture_.waitForLight(governed_ <= 0.0f);
   }
   const bool drawn = picture_.draw(scene.camera, scene.time, part.width, part.height, scaleFor(part));
   if (drawn && bench_.panels && bench_.tab == Tab::pace) pace.cost = picture_.cost();

@@ -31,8 +31,9 @@ struct ViewerOptions {
   std::string file;     // of the scene; empty for none
   std::string skyName;  // how the command line names the sky: a preset, a file, or empty for the default
   int width = 1280, height = 720;
-  double uiScale = 0.0;  // 0: by the screen
-  double scale = 0.0;    // of the resolution while something moves; 0: chosen by itself
+  double uiScale = 0.0;        // 0: by the screen
+  double scale = 0.0;          // of the resolution while something moves; 0: chosen by itself
+  std::optional<double> rate;  // frames a second to hold by quality, 0: none; chosen by itself if not given
   bool headless = false;
   std::string script;      // a file of input; empty for none
   std::string screenshot;  // a PNG of the window at the script's end, or of the first picture at rest; empty for none

@@ -19,6 +19,12 @@ void WindowArguments::addTo(CLI::App& command) {
                   "resolution while something moves, as a share of the window's; chosen by itself if not given")
       ->type_name("X")
       ->check(CLI::Range(0.1, 1.0));
+  command
+      .add_option("--rate", rate,
+                  "frames a second to hold by quality while something moves; 0: quality stays, and the first picture "
+                  "waits for all of its light; if not given 60, without a GPU 25, and 0 for scripts")
+      ->type_name("FPS")
+      ->check(CLI::Range(0.0, 1000.0));
   command.add_option("--script", script, "plays a file of input, then ends; docs/viewer.md")->type_name("FILE");
   command.add_option("--screenshot", screenshot, "a PNG of the window when the script has ended")->type_name("FILE");
   command.add_flag("--headless", headless, "without window and display, for scripts");
@@ -37,6 +43,7 @@ viewer::ViewerOptions WindowArguments::options() const {
   options.height = pixels.height;
   options.uiScale = uiScale;
   options.scale = scale;
+  if (rate >= 0.0) options.rate = rate;
   options.headless = headless;
   options.script = script;
   options.screenshot = screenshot;

@@ -12,7 +12,7 @@ namespace welkin::app {
 struct WindowArguments {
   SkyArguments sky;
   std::string size = "1280x720", script, screenshot;
-  double uiScale = 0.0, scale = 0.0;
+  double uiScale = 0.0, scale = 0.0, rate = -1.0;
   bool headless = false;
 
   void addTo(CLI::App& command);

@@ -112,6 +112,18 @@ TEST_F(ViewCommand, TheSameScriptDrawsTheSamePicture) {
   EXPECT_EQ(slurp(path("a.png")), slurp(path("b.png")));
 }
 
+// With a rate to hold the first picture shows coarse light, and the picture at rest is the same as without.
+TEST_F(ViewCommand, ARateToHoldDoesNotWaitForLight) {
+  for (const std::string rate : {"0", "25"}) {
+    const std::string script =
+        "frames 1\npicture " + path("early" + rate + ".png") + "\nsettle\npicture " + path("rest" + rate + ".png");
+    ASSERT_EQ(play(script, "--rate " + rate).code, 0);
+  }
+  EXPECT_NE(slurp(path("early0.png")), slurp(path("early25.png")));
+  EXPECT_EQ(slurp(path("rest0.png")), slurp(path("rest25.png")));
+  EXPECT_EQ(test::run("view --rate -1").code, 2);
+}
+
 TEST_F(ViewCommand, WrongFilesAndOddSizesDoNoHarm) {
   std::ofstream(path("wrong.sky.toml")) << "format = 1\n[sun]\nelevaton = 3\n";
   std::ofstream(path("binary.toml"), std::ios::binary) << std::string(1000, '\0');

@@ -162,7 +162,7 @@ struct SkyPicture::State {
   gl::Texture meter;
   Canvas moving, still;
   bool stillShown = false;
-  bool waitsForLight = false;
+  bool waitsForLight = true;
   Quality wanted, current;  // the scene's; the renderer's
   double target = 0.0;      // s a frame while something moves; 0: ungoverned
   std::optional<realtime::Governor> governor;
