@@ -82,6 +82,37 @@ TEST(HostDepth, ClipsTheMarchInEveryConvention) {
           << static_cast<int>(kind) << static_cast<int>(range);
 }
 
+// A wire of one pixel near the eye, where the history's texels are blocks of 3 x 3 and the march's of 12 x 12: clouds
+// that pass behind it stay behind it.
+TEST(HostDepth, ThinThingsStandBeforeTheClouds) {
+  Stage stage(kWidth, kHeight);
+  Scene scene = overcast();
+  scene.quality.historyScale = 3;
+  scene.quality.interleave = 4;
+  stage.sky->setScene(scene);
+  const auto greatest = [&](double distance) {
+    View view;
+    double most = 0.0;
+    for (int i = 0; i < 20; ++i) {
+      Frame frame = stage.frame(scene);
+      frame.position.y += 1.5 * i;
+      setDepth(frame, Depth::infinite, DepthRange::zeroToOne);
+      frame.background = Background::host;
+      const int wire = kWidth / 2 + i;
+      std::vector<float> texels(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
+      for (int y = 0; y < kHeight; ++y)
+        texels[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(wire)] = depthOf(distance, Depth::infinite);
+      const gl::Texture depth = stage.depth(texels);
+      frame.depthTexture = depth.id();
+      const Image image = stage.draw(view, frame, glm::vec4(1.0f));
+      most = std::max(most, opacity(image, wire, wire + 1) / kHeight);
+    }
+    return most;
+  };
+  EXPECT_EQ(greatest(10.0), 0.0);
+  EXPECT_GT(greatest(100e3), 0.1) << "control: a wire behind the clouds";
+}
+
 TEST(HostAxes, BothUpsGiveTheSamePicture) {
   Stage stage(kWidth, kHeight);
   Scene scene = overcast();

@@ -20,7 +20,7 @@ FN Real linearFromSrgb(IN(Real) x) {
 }
 
 // x / (1 + x^p)^(1/p): from slope 1 at 0 to 1 at infinity; p sets how sharply it bends.
-FN Real toneBend(IN(Real) x, float p) { return x * pow(1.0f + pow(max(x, 1e-6f), p), -1.0f / p); }
+FN Real toneBend(IN(Real) x, IN(Real) p) { return x * pow(1.0f + pow(max(x, 1e-6f), p), -1.0f / p); }
 
 // The scale S of a branch that leaves the pivot with slope s and reaches `rise` after `run`: S bend(s run / S) = rise.
 FN float toneBranchScale(float s, float run, float rise, float p) {
@@ -38,9 +38,8 @@ FN Real toneAgxCurve(IN(Real) x) {
   float toeScale = toneBranchScale(slope, pivotX, pivotY, toe);
   float shoulderScale = toneBranchScale(slope, 1.0f - pivotX, 1.0f - pivotY, shoulder);
   Real t = clamp((log2(max(x, 1e-7f) / 0.18f) + 9.0f) / 15.0f, 0.0f, 1.0f) - pivotX;
-  Real low = pivotY - toeScale * toneBend(max(-t, 0.0f) * (slope / toeScale), toe);
-  Real high = pivotY + shoulderScale * toneBend(max(t, 0.0f) * (slope / shoulderScale), shoulder);
-  return select(t < 0.0f, low, high);
+  Real scale = select(t < 0.0f, Real(-toeScale), Real(shoulderScale));
+  return pivotY + scale * toneBend(t * (slope / scale), select(t < 0.0f, Real(toe), Real(shoulder)));
 }
 
 // The published inset pulls saturated light toward grey before the curve; the outset is its inverse.

@@ -14,8 +14,9 @@ namespace {
 
 // Shares of a frame of quality high, fitted to what the rungs cost on bench/governor.cpp's flight (llvmpipe): the
 // march, where each near step toward the sun costs kPerLightStep of a point and longer steps save less than they skip;
-// and what every pixel of the history and of the picture costs.
-constexpr double kMarch = 0.7, kHistory = 0.18, kPicture = 0.12, kPerLightStep = 0.12, kStepPower = 0.55;
+// what every pixel of the history and of the picture costs; and the light volume, when a level takes 24 frames.
+constexpr double kMarch = 0.64, kHistory = 0.17, kPicture = 0.11, kLight = 0.08, kPerLightStep = 0.12;
+constexpr double kStepPower = 0.55;
 
 constexpr int kCutFrames = 4;        // after a cut
 constexpr int kLag = 3;              // frames after a change whose times may still be of those before
@@ -28,7 +29,7 @@ constexpr double kFarOver = 1.25, kOver = 1.03;  // times over the target that c
 constexpr double kAimDown = 0.95, kAimUp = 0.9;  // where a change is meant to end
 constexpr double kMostRest = 0.9;                // share of a frame that may be out of reach
 constexpr double kMostRestDown = 0.5;            // the same while time is short: too far down is put right soon
-constexpr int kSlowestLight = 240;               // frames for a level of the light volume
+constexpr int kSlowLight = 96, kSlowestLight = 240;  // frames for a level of the light volume, at first and at last
 constexpr double kStepRatio = 1.2;               // between rungs that differ in step scale
 constexpr float kScaleRatio = 0.84f;             // between those that differ in resolution: 0.7 of the pixels
 
@@ -68,8 +69,8 @@ Ladder ladder(const Quality& best, const Quality& worst, float leastScale) {
   const auto scaleTo = [&](int most) {
     while (q.historyScale < std::min(most, worst.historyScale)) {
       ++q.historyScale;
-      // Where so much has to be saved, light must not take more than clouds: it follows more slowly.
-      if (q.historyScale > 2 && q.lightFrames > 1) q.lightFrames = std::min(2 * q.lightFrames, kSlowestLight);
+      // Where so much has to be saved, light must not take more than clouds.
+      if (q.historyScale > 2) q.lightFrames = std::max(q.lightFrames, std::min(2 * q.lightFrames, worst.lightFrames));
       push();
     }
   };
@@ -81,6 +82,11 @@ Ladder ladder(const Quality& best, const Quality& worst, float leastScale) {
       push();
     }
   };
+  // Light that follows a little later is the last that anyone sees.
+  while (q.lightVolume && q.lightFrames < std::min(kSlowLight, worst.lightFrames)) {
+    q.lightFrames = std::min(4 * q.lightFrames, kSlowLight);
+    push();
+  }
   interleaveTo(2);
   stepsTo(1.0f);
   scaleTo(2);
@@ -98,6 +104,9 @@ Ladder ladder(const Quality& best, const Quality& worst, float leastScale) {
   scaleTo(4);
   pictureTo(0.59f);
   stepsTo(worst.stepScale);
+  pictureTo(0.5f);
+  // Of so small a picture the clouds keep more, which costs little beside all else that a host draws.
+  if (scale * kScaleRatio >= leastScale * 0.99f) q.historyScale = std::min(q.historyScale, 3);
   pictureTo(leastScale);
   return all;
 }
@@ -120,12 +129,14 @@ double relativeCost(const Quality& q) {
     return rays / (interleave * interleave) * (1.0 + kPerLightStep * light) * std::pow(of.stepScale, -kStepPower);
   };
   const double history = 4.0 / (q.historyScale * q.historyScale);
-  return kMarch * march(q) / march(high) + kHistory * history + kPicture;
+  const double light = q.lightVolume ? static_cast<double>(high.lightFrames) / q.lightFrames : 0.0;
+  return kMarch * march(q) / march(high) + kHistory * history + kPicture + kLight * light;
 }
 
 Quality GovernorSettings::coarsest() {
   Quality q = qualityPreset(QualityPreset::low);
   q.historyScale = 4;
+  q.lightFrames = kSlowestLight;
   return q;
 }
 

@@ -19,13 +19,13 @@ struct GovernorSettings {
   Quality worst = coarsest();
   float leastScale = 1.0f;  // of the picture's width and height, for hosts that can draw at scale(); 0.25 to 1
 
-  // Quality low with a history of a quarter of the picture's width.
+  // Quality low with a history of a quarter of the picture's width and light that takes its time.
   static Quality coarsest();
 };
 
-// Between `best` and `worst` lie rungs that differ in step scale, light steps, interleave and history scale: what can
-// be changed from one frame to the next with no shader or table made anew, and in the picture's own resolution where
-// `leastScale` allows it. All other switches stay as in `best`.
+// Between `best` and `worst` lie rungs that differ in frames for light, step scale, light steps, interleave and history
+// scale: what can be changed from one frame to the next with no shader or table made anew, and in the picture's own
+// resolution where `leastScale` allows it. All other switches stay as in `best`.
 class Governor {
  public:
   // Throws Error (badInput) when the target is not a positive number of seconds.

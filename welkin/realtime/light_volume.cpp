@@ -175,13 +175,15 @@ void LightVolume::draw(const CloudPasses& clouds, gl::Framebuffer& framebuffer, 
     job_.reset();
     last_ = 0;
   }
-  double work = slices_ * (kDensityWork + 8.0 * kSunWork + kNextSteps * (kDownWork + kUpWork)) / std::max(frames, 1);
+  // A slice more than this frame's share is taken off the next one's.
+  due_ = std::min(due_, 0.0) +
+         slices_ * (kDensityWork + 8.0 * kSunWork + kNextSteps * (kDownWork + kUpWork)) / std::max(frames, 1);
   while (stale()) {
     const bool now = mustNow();
-    if (!now && work <= 0.0) break;
+    if (!now && due_ <= 0.0) break;
     if (!job_) job_ = nextJob();
-    const double left = go(clouds, framebuffer, now ? 1e30 : work);
-    work = now ? 0.0 : left;
+    const double left = go(clouds, framebuffer, now ? 1e30 : due_);
+    due_ = now ? 0.0 : left;
   }
 }
 

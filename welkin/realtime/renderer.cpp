@@ -732,7 +732,7 @@ void Renderer::State::lightningOf(const glm::dvec2& place, double time) {
 const gl::Program& Renderer::State::compositeProgram(const Frame& frame, const FrameParams& params) {
   const bool drawn = frame.background != Background::host && frame.output != Output::transmittance;
   std::string defines;
-  if (drawn && frame.depthTexture) defines += "#define SKY\n";
+  if (frame.depthTexture) defines += drawn ? "#define DEPTH\n#define SKY\n" : "#define DEPTH\n";
   if (drawn && frame.output == Output::light && mayShow(params, glm::vec3(sky.params().air.sunDirection), 0.05f))
     defines += "#define DISC\n";
   if (drawn && heavens.moonShows) defines += "#define MOON\n";
@@ -796,6 +796,7 @@ void Renderer::State::compositePass(const View::State& view, const Frame& frame,
   bind(program, "uSkyView", sky.skyView(), 1);
   bind(program, "uTransmittance", sky.transmittance(), 2);
   bindHostDepth(program, frame, 3);
+  bind(program, "uMarchedDepth", view.marchedDepth, 4);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -13,9 +13,9 @@
 namespace welkin::viewer {
 
 // What a block shows. The software driver runs all of a shader, so each kind has a program of its own
-// (land_shader.hpp); `close` is a block that the runway or the aircraft's shadow may touch.
-enum class LandKind { land, sea, shore, close };
-inline constexpr int kLandKinds = 4;
+// (land_shader.hpp); `close` are blocks that the runway or the aircraft's shadow may touch.
+enum class LandKind { land, sea, shore, closeLand, closeShore };
+inline constexpr int kLandKinds = 5;
 
 class LandMesh {
  public:

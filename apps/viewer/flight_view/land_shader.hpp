@@ -89,7 +89,7 @@ vec3 details(vec2 p, float finest, float pixel) {
   for (int k = 0; k < 4; ++k) {
     float size = exp2(whole + 1.0 - float(k));
     float weight = smoothstep(1.5, 4.0, size / pixel) * (k == 0 ? part : k == 3 ? 1.0 - part : 1.0);
-    if (weight <= 0.0) continue;
+    if (size < 1.5 * pixel) break;  // those that follow are finer
     vec2 q = p / size;
     vec2 cell = floor(q);
     sum += weight * perlin2SlopeAt(ivec2(cell), q - cell, 0, uint(40 + int(whole) - k));

@@ -23,6 +23,20 @@ constexpr const char* kLawText = R"(
 #include "welkin/noise/perlin.glsl"
 )";
 
+// Light and air at one place: what a model near it is lit by throughout. Its small triangles would ask for it again and
+// again, as the software driver shades blocks of pixels for each.
+constexpr const char* kPlaceFragment = R"(
+uniform vec3 uPlace;  // from the eye
+out vec4 oLight;
+void main() {
+  WelkinLight light = welkinLight(uPlace);
+  WelkinFront air = welkinAir(uPlace);
+  int at = int(gl_FragCoord.x);
+  oLight = vec4(at == 0 ? light.toSun : at == 1 ? light.sun : at == 2 ? light.sky : at == 3 ? air.through : air.light, 1.0);
+}
+)";
+constexpr int kPlaceTexels = 5;
+
 // Numbers of Part: 0 fuselage, 1 wing, 2 tail, 3 fin, 4 dark, 5 wheel, 6 spinner, 7 wall, 8 roof.
 constexpr const char* kModelVertex = R"(
 layout(location = 0) in vec3 aPosition;
@@ -55,10 +69,16 @@ void main() {
 constexpr const char* kModelFragment = R"(
 in vec3 vFromEye, vNormal, vModel;
 flat in int vPart;
+uniform highp sampler2D uLight;  // kPlaceFragment's
 uniform float uExposure;
 uniform float uInside;  // 1: the eye is in the cabin
 uniform vec3 uToGround;  // light that the ground sends up, as a share of what falls on it
 out vec4 oColour;
+// Share of a pixel that a line covers: `off` its middle, half as wide as `half_`, all in m.
+float lineOver(float off, float half_) {
+  float pixel = fwidth(off) + 1e-4;
+  return clamp((half_ - abs(off)) / pixel + 0.5, 0.0, 1.0) * min(2.0 * half_ / pixel, 1.0);
+}
 // Albedo and gloss.
 vec4 paintOf(vec3 m) {
   vec3 white = vec3(0.62, 0.63, 0.64), red = vec3(0.42, 0.035, 0.03), dark = vec3(0.03, 0.032, 0.036);
@@ -69,13 +89,12 @@ vec4 paintOf(vec3 m) {
   if (vPart == 6) return vec4(red, 1.0);
   if (vPart == 1) {
     float tip = smoothstep(4.45, 4.5, abs(m.y)) * smoothstep(5.3, 5.25, abs(m.y));
-    float hinge = 1.0 - smoothstep(0.012, 0.02, abs(m.x + 0.42));
-    return vec4(mix(mix(white, red, tip), dark, 0.6 * hinge), 0.8);
+    return vec4(mix(mix(white, red, tip), dark, 0.6 * lineOver(m.x + 0.42, 0.016)), 0.8);
   }
-  if (vPart == 2) return vec4(mix(white, dark, 0.6 * (1.0 - smoothstep(0.012, 0.02, abs(m.x + 4.8)))), 0.8);
+  if (vPart == 2) return vec4(mix(white, dark, 0.6 * lineOver(m.x + 4.8, 0.016)), 0.8);
   if (vPart == 3) return vec4(mix(white, red, smoothstep(-1.2, -1.25, m.z) * smoothstep(-1.75, -1.7, m.z)), 0.8);
   // Glass: windscreen, side and rear windows; stripe along the side.
-  float stripe = smoothstep(0.05, 0.03, abs(m.z + 0.02 + 0.03 * m.x)) + smoothstep(0.025, 0.01, abs(m.z - 0.1 + 0.03 * m.x));
+  float stripe = lineOver(m.z + 0.02 + 0.03 * m.x, 0.04) + lineOver(m.z - 0.1 + 0.03 * m.x, 0.018);
   vec3 colour = mix(white, red, clamp(stripe, 0.0, 1.0));
   float low = m.x > 0.45 ? -0.36 : -0.34;
   float pane = smoothstep(low, low - 0.02, m.z) * smoothstep(-0.88, -0.86, m.z) * step(m.x, 0.97) * step(-1.75, m.x);
@@ -90,20 +109,21 @@ void main() {
   vec3 toEye = normalize(-vFromEye);
   vec3 normal = normalize(vNormal);
   vec4 paint = paintOf(vModel);
-  WelkinLight light = welkinLight(vFromEye);
+  vec3 toSun = texelFetch(uLight, ivec2(0), 0).xyz, sun = texelFetch(uLight, ivec2(1, 0), 0).xyz;
+  vec3 sky = texelFetch(uLight, ivec2(2, 0), 0).xyz;
   float up = 0.5 + 0.5 * normal.z;
-  vec3 below = uToGround * (light.sun * max(light.toSun.z, 0.0) + light.sky);
-  vec3 irradiance = light.sun * max(dot(normal, light.toSun), 0.0) + light.sky * up + below * (1.0 - up);
+  vec3 below = uToGround * (sun * max(toSun.z, 0.0) + sky);
+  vec3 irradiance = sun * max(dot(normal, toSun), 0.0) + sky * up + below * (1.0 - up);
   vec3 radiance = paint.rgb * irradiance / 3.14159265;
   // Lacquer: what it mirrors of sky and ground, and the sun's highlight.
   vec3 mirrored = reflect(-toEye, normal);
   float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(normal, toEye), 0.0), 5.0);
-  vec3 around = mix(below, light.sky, smoothstep(-0.15, 0.15, mirrored.z)) / 3.14159265;
-  float shine = pow(max(dot(mirrored, light.toSun), 0.0), 180.0) * 29.0;
+  vec3 around = mix(below, sky, smoothstep(-0.15, 0.15, mirrored.z)) / 3.14159265;
+  float shine = pow(max(dot(mirrored, toSun), 0.0), 180.0) * 29.0;
   radiance += min(paint.a, 1.0) * fresnel * around * max(paint.a, 1.0);
-  radiance += min(paint.a, 1.0) * fresnel * light.sun * shine;
-  WelkinFront air = welkinAir(vFromEye);
-  oColour = vec4(radiance * uExposure * air.through + air.light, 1.0);
+  radiance += min(paint.a, 1.0) * fresnel * sun * shine;
+  vec3 through = texelFetch(uLight, ivec2(3, 0), 0).xyz, air = texelFetch(uLight, ivec2(4, 0), 0).xyz;
+  oColour = vec4(radiance * uExposure * through + air, 1.0);
 }
 )";
 
@@ -195,18 +215,23 @@ void ModelBuffer::draw() const {
 
 Scenery::Scenery(const gl::Api& gl, const Flight& flight)
     : gl_(gl), flight_(flight), shape_(gl, "land's shape", "", kShapeFragment, realtime::shaderSource, kShapeVertex),
-      model_(makeProgram(gl, "model", "", kModelFragment, kModelVertex)),
+      place_(makeProgram(gl, "place", "", kPlaceFragment, "")),
+      model_(gl, "model", "", kModelFragment, realtime::shaderSource, kModelVertex),
       propeller_(makeProgram(gl, "propeller", "", kPropellerFragment, kPropellerVertex)), mesh_(gl, flight.terrain()),
-      aircraft_(gl, aircraftMesh()), airfield_(gl, airfieldMesh()), none_(gl), shapes_(gl) {}
+      aircraft_(gl, aircraftMesh()), airfield_(gl, airfieldMesh()),
+      light_(gl, gl::Texture::Kind::plane, gl::kRgba32F, kPlaceTexels, 1, 0, gl::Filter::nearest, gl::Addressing::clamp,
+             nullptr),
+      none_(gl), shapes_(gl), lights_(gl) {}
 
 void Scenery::drawSurfaces(const realtime::Frame& frame, const Target& target, const Bind& bind) {
   drawLand(frame, target, bind);
-  drawModels(frame, bind);
+  drawModels(frame, target, bind);
   gl_.check("drawing the land");
 }
 
 const gl::Program& Scenery::landProgram(LandKind kind) {
   constexpr const char* kDefines[kLandKinds] = {"#define LAND\n", "#define SEA\n", "#define LAND\n#define SEA\n",
+                                                "#define LAND\n#define CLOSE\n",
                                                 "#define LAND\n#define SEA\n#define CLOSE\n"};
   gl::Program& land = land_[static_cast<std::size_t>(kind)][rains_ ? 1 : 0];
   if (!land.id())
@@ -281,11 +306,34 @@ void Scenery::drawLand(const realtime::Frame& frame, const Target& target, const
   gl_.Enable(GL_DEPTH_TEST);
 }
 
-void Scenery::drawModels(const realtime::Frame& frame, const Bind& bind) {
+// A model that stands at `origin`, from the eye, its axes turned by `worldFromModel`.
+void Scenery::drawModel(const ModelBuffer& model, const glm::vec3& origin, const glm::mat3& worldFromModel,
+                        const realtime::Frame& frame, const Target& target, const Bind& bind) {
+  const gl::Texture* const targets[] = {&light_};
+  lights_.target(targets);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.UseProgram(place_.id());
+  bind(place_.id());
+  setVector(gl_, place_, "uPlace", origin);
+  gl_.BindVertexArray(none_.id());
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  gl_.Viewport(0, 0, frame.width, frame.height);
+
+  gl_.UseProgram(model_.id());
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, light_.id());
+  gl_.Uniform1i(model_.uniform("uLight"), 0);
+  setMatrix(gl_, model_, "uWorldFromModel", worldFromModel);
+  setVector(gl_, model_, "uOrigin", origin);
+  model.draw();
+}
+
+void Scenery::drawModels(const realtime::Frame& frame, const Target& target, const Bind& bind) {
   const glm::dvec3 eye = eyeOf(frame);
   const Aircraft& aircraft = flight_.aircraft();
   gl_.UseProgram(model_.id());
-  bind(model_.id());
   setMatrix(gl_, model_, "uClipFromEye", clipFromEye(frame));
   gl_.Uniform1f(model_.uniform("uExposure"), frame.preExposure);
   setVector(gl_, model_, "uToGround", glm::vec3(0.1f, 0.11f, 0.07f));
@@ -293,17 +341,15 @@ void Scenery::drawModels(const realtime::Frame& frame, const Bind& bind) {
   gl_.Uniform4f(model_.uniform("uSurfaces"), static_cast<float>(d.elevator), static_cast<float>(d.aileron),
                 static_cast<float>(d.rudder), static_cast<float>(0.5 * aircraft.flaps));
   gl_.Uniform1f(model_.uniform("uInside"), flight_.pilot.view() == FlightView::cockpit ? 1.0f : 0.0f);
-  setMatrix(gl_, model_, "uWorldFromModel", glm::mat3(glm::mat3_cast(aircraft.attitude)));
-  setVector(gl_, model_, "uOrigin", glm::vec3(aircraft.position - eye));
-  aircraft_.draw();
+  drawModel(aircraft_, glm::vec3(aircraft.position - eye), glm::mat3(glm::mat3_cast(aircraft.attitude)), frame, target,
+            bind);
 
   const Runway& runway = flight_.terrain().runway();
   const glm::dvec3 there = glm::dvec3(0.0, 0.0, runway.elevation) - eye;
   if (std::hypot(there.x, there.y) > 15000.0) return;  // less than a pixel
   const auto s = static_cast<float>(std::sin(runway.heading)), c = static_cast<float>(std::cos(runway.heading));
-  setMatrix(gl_, model_, "uWorldFromModel", glm::mat3(glm::vec3(s, c, 0), glm::vec3(c, -s, 0), glm::vec3(0, 0, 1)));
-  setVector(gl_, model_, "uOrigin", glm::vec3(there));
-  airfield_.draw();
+  drawModel(airfield_, glm::vec3(there), glm::mat3(glm::vec3(s, c, 0), glm::vec3(c, -s, 0), glm::vec3(0, 0, 1)), frame,
+            target, bind);
 }
 
 void Scenery::drawGlass(const realtime::Frame& frame, const Bind& bind) {

@@ -45,17 +45,20 @@ class Scenery final : public Foreground {
   void drawShape(const realtime::Frame& frame, const Target& target, const LandMesh::Blocks& blocks);
   void drawLand(const realtime::Frame& frame, const Target& target, const Bind& bind);
   const gl::Program& landProgram(LandKind kind);
-  void drawModels(const realtime::Frame& frame, const Bind& bind);
+  void drawModels(const realtime::Frame& frame, const Target& target, const Bind& bind);
+  void drawModel(const ModelBuffer& model, const glm::vec3& origin, const glm::mat3& worldFromModel,
+                 const realtime::Frame& frame, const Target& target, const Bind& bind);
 
   const gl::Api& gl_;
   const Flight& flight_;
   std::array<std::array<gl::Program, 2>, kLandKinds> land_;  // dry, and where it rains; compiled when first needed
-  gl::Program shape_, model_, propeller_;
+  gl::Program shape_, place_, model_, propeller_;
   LandMesh mesh_;
   ModelBuffer aircraft_, airfield_;
+  gl::Texture light_;  // at a model's place
   gl::VertexArray none_;
   gl::Texture along_;  // the view's way to the land, m
-  gl::Framebuffer shapes_;
+  gl::Framebuffer shapes_, lights_;
   Wind wind_;
   bool rains_ = false;
 };

@@ -61,6 +61,42 @@ void main() {
 }
 )";
 
+// Edges of things, which are drawn with one sample of a pixel: neighbours along the edge are mixed, across it nothing
+// is, as far as the edge's slope can be told from the corners round a pixel (in the manner of T. Lottes 2009, FXAA).
+constexpr const char* kSmoothText = R"(
+uniform sampler2D uPicture;
+in vec2 vUv;
+layout(location = 0) out vec4 oColour;
+const float kLeast = 0.06;  // difference of brightness that is an edge
+const float kReach = 4.0;   // pixels along an edge
+float brightness(vec3 c) { return dot(c, vec3(0.3, 0.6, 0.1)); }
+vec3 at(vec2 pixels) { return textureLod(uPicture, vUv + pixels / vec2(textureSize(uPicture, 0)), 0.0).rgb; }
+void main() {
+  vec3 here = at(vec2(0.0));
+  vec4 round_ = vec4(brightness(at(vec2(-0.5, -0.5))), brightness(at(vec2(0.5, -0.5))), brightness(at(vec2(-0.5, 0.5))),
+                     brightness(at(vec2(0.5, 0.5))));
+  float own = brightness(here);
+  float least = min(min(min(round_.x, round_.y), min(round_.z, round_.w)), own);
+  float most = max(max(max(round_.x, round_.y), max(round_.z, round_.w)), own);
+  vec2 uphill = vec2(round_.y + round_.w - round_.x - round_.z, round_.z + round_.w - round_.x - round_.y);
+  vec2 along = vec2(-uphill.y, uphill.x);
+  // The flatter an edge lies, the longer are its steps.
+  along = clamp(along / (min(abs(along.x), abs(along.y)) + 0.02), vec2(-kReach), vec2(kReach));
+  vec3 near = 0.5 * (at(0.2 * along) + at(-0.2 * along)), wide = 0.5 * near + 0.25 * (at(0.5 * along) + at(-0.5 * along));
+  float found = brightness(wide);
+  vec3 smoothed = found < least || found > most ? near : wide;
+  oColour = vec4(most - least < kLeast ? here : smoothed, 1.0);
+}
+)";
+
+// A picture at another resolution.
+constexpr const char* kStretchText = R"(
+uniform sampler2D uPicture;
+in vec2 vUv;
+layout(location = 0) out vec4 oColour;
+void main() { oColour = textureLod(uPicture, vUv, 0.0); }
+)";
+
 // A frame's counts of samples, one of a block, in the places of their pixels.
 constexpr const char* kCountsText = R"(
 uniform sampler2D uCounts;
@@ -155,10 +191,11 @@ struct SkyPicture::State {
   realtime::Renderer renderer;
   gl::VertexArray triangle;
   gl::Program showProgram, meterProgram, countsProgram;
-  mutable gl::Program compareProgram, samplesProgram;  // made when first needed
+  mutable gl::Program compareProgram, samplesProgram, smoothProgram, stretchProgram;  // made when first needed
   bool counting = false;
   mutable gl::UniformBuffer tone;
   mutable gl::Framebuffer scratch;
+  mutable gl::Texture toned, smoothed;  // of a canvas
   gl::Texture meter;
   Canvas moving, still;
   bool stillShown = false;
@@ -222,6 +259,52 @@ struct SkyPicture::State {
     if (counting) gatherCounts(canvas);
     canvas.complete = renderer.outputs(canvas.view).complete;
     ++canvas.frames;
+  }
+
+  // Aims at a texture for display values, as large as the canvas that is shown.
+  void toTexture(gl::Texture& texture) const {
+    const gl::Texture& light = shown().light;
+    if (!texture || texture.width() != light.width() || texture.height() != light.height())
+      texture = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, light.width(), light.height(), 0,
+                            gl::Filter::linear, gl::Addressing::clamp, nullptr);
+    const gl::Texture* const targets[] = {&texture};
+    scratch.target(targets);
+  }
+
+  void tonePass(const Overlay& overlay, bool compares, bool counted) const {
+    if (compares && !compareProgram.id())
+      compareProgram = gl::Program(gl, "compare", "#define COMPARE\n", kShowText, realtime::shaderSource);
+    if (counted && !samplesProgram.id())
+      samplesProgram = gl::Program(gl, "samples", "#define SAMPLES\n", kShowText, realtime::shaderSource);
+    const gl::Program& program = counted ? samplesProgram : compares ? compareProgram : showProgram;
+    const auto bind = [&](const char* name, const gl::Texture& texture, int unit) {
+      gl.ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+      gl.BindTexture(GL_TEXTURE_2D, texture.id());
+      gl.Uniform1i(program.uniform(name), unit);
+    };
+    gl.UseProgram(program.id());
+    program.bindBlock("Tone", 0);
+    tone.bind(0);
+    bind("uLight", shown().light, 0);
+    if (compares) {
+      bind("uReference", *overlay.reference, 1);
+      gl.Uniform1i(program.uniform("uComparison"), static_cast<int>(overlay.comparison) + 1);
+      gl.Uniform1f(program.uniform("uWipe"), overlay.wipe);
+    }
+    if (counted) {
+      bind("uSamples", shown().counts, 2);
+      gl.Uniform1f(program.uniform("uMostSamples"), overlay.mostSamples);
+    }
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void picturePass(gl::Program& program, const char* name, const char* text, const gl::Texture& picture) const {
+    if (!program.id()) program = gl::Program(gl, name, "", text, realtime::shaderSource);
+    gl.UseProgram(program.id());
+    gl.ActiveTexture(GL_TEXTURE0);
+    gl.BindTexture(GL_TEXTURE_2D, picture.id());
+    gl.Uniform1i(program.uniform("uPicture"), 0);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
   }
 
   void gatherCounts(Canvas& canvas) {
@@ -382,37 +465,36 @@ void SkyPicture::show(unsigned framebuffer, const Region& region, const Film& fi
                                                    .curve = film.tone});
   const gl::StateGuard guard(s.gl);
   s.tone.upload(&tone, sizeof tone);
-  s.gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  s.gl.Viewport(region.x, region.y, region.width, region.height);
   s.gl.BindVertexArray(s.triangle.id());
+  const gl::Texture& light = s.shown().light;
   const bool compares = overlay.reference && *overlay.reference;
-  if (compares && !s.compareProgram.id())
-    s.compareProgram = gl::Program(s.gl, "compare", "#define COMPARE\n", kShowText, realtime::shaderSource);
-  const gl::Texture& counts = s.shown().counts;
-  const bool counted = overlay.mostSamples > 0.0f && s.counting && counts;
-  if (counted && !s.samplesProgram.id())
-    s.samplesProgram = gl::Program(s.gl, "samples", "#define SAMPLES\n", kShowText, realtime::shaderSource);
-  const gl::Program& program = counted ? s.samplesProgram : compares ? s.compareProgram : s.showProgram;
-  s.gl.UseProgram(program.id());
-  program.bindBlock("Tone", 0);
-  s.tone.bind(0);
-  s.gl.ActiveTexture(GL_TEXTURE0);
-  s.gl.BindTexture(GL_TEXTURE_2D, s.shown().light.id());
-  s.gl.Uniform1i(program.uniform("uLight"), 0);
-  if (compares) {
-    s.gl.ActiveTexture(GL_TEXTURE0 + 1);
-    s.gl.BindTexture(GL_TEXTURE_2D, overlay.reference->id());
-    s.gl.Uniform1i(program.uniform("uReference"), 1);
-    s.gl.Uniform1i(program.uniform("uComparison"), static_cast<int>(overlay.comparison) + 1);
-    s.gl.Uniform1f(program.uniform("uWipe"), overlay.wipe);
+  const bool counted = overlay.mostSamples > 0.0f && s.counting && s.shown().counts;
+  const bool stretched = light.width() != region.width || light.height() != region.height;
+  const auto toWindow = [&] {
+    s.gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    s.gl.Viewport(region.x, region.y, region.width, region.height);
+  };
+  // What is drawn coarsely is toned where it is coarse: that costs less, and edges stay as soft as the filter has them.
+  if (compares || counted || (!stretched && !s.foreground)) {
+    toWindow();
+    s.tonePass(overlay, compares, counted);
+  } else {
+    s.toTexture(s.toned);
+    s.tonePass(overlay, false, false);
+    const gl::Texture* picture = &s.toned;
+    if (s.foreground) {
+      if (stretched)
+        s.toTexture(s.smoothed);
+      else
+        toWindow();
+      s.picturePass(s.smoothProgram, "smooth", kSmoothText, *picture);
+      picture = &s.smoothed;
+    }
+    if (stretched) {
+      toWindow();
+      s.picturePass(s.stretchProgram, "stretch", kStretchText, *picture);
+    }
   }
-  if (counted) {
-    s.gl.ActiveTexture(GL_TEXTURE0 + 2);
-    s.gl.BindTexture(GL_TEXTURE_2D, counts.id());
-    s.gl.Uniform1i(program.uniform("uSamples"), 2);
-    s.gl.Uniform1f(program.uniform("uMostSamples"), overlay.mostSamples);
-  }
-  s.gl.DrawArrays(GL_TRIANGLES, 0, 3);
   s.gl.check("showing the picture");
 }
 

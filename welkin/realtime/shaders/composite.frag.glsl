@@ -1,6 +1,6 @@
 // Composite pass: the history over the sky, or over the host's picture by blending (one, source alpha). The history has
 // the sky in it where no geometry of the host hides it. Variants, since the software driver runs all of a shader: SKY
-// adds the sky here, up to the edges of the host's geometry; DISC, MOON and STARS add what is sharper than the history.
+// adds the sky here, up to the edges of the host's geometry; DEPTH keeps clouds behind what the host has drawn; DISC, MOON and STARS add what is sharper than the history.
 #include "welkin/base/law.glsl"
 #include "welkin/light/phase.glsl"
 #include "welkin/light/transmittance.glsl"
@@ -19,6 +19,10 @@ uniform sampler2D uHistory;
 uniform sampler2D uSkyView;
 uniform sampler2D uTransmittance;
 uniform sampler2D uHostDepth;
+uniform sampler2D uMarchedDepth;
+
+// What is nearer than this share of the clouds' distance has none before it, nor rain to speak of within so many m.
+const float kBefore = 0.6, kNear = 100.0;
 
 in vec2 vUv;
 layout(location = 0) out vec4 oColour;
@@ -27,9 +31,17 @@ void main() {
   vec2 uv = vUv - uLock.xy;
   vec4 cloud = textureLod(uHistory, uv, 0.0);
   cloud.rgb *= uOptions.x;
+  vec3 ray = rayAt(uv * 2.0 - 1.0);
+#ifdef DEPTH
+  // The history is too coarse for what is thin: it mixes it with the clouds that stand behind.
+  ivec2 corner = ivec2(floor((uv * uSize.xy - 0.5 - uOffset.xy) / uTiming.w)), last = ivec2(uMarchSize.xy) - 1;
+  float clouds = 1e9;
+  for (int i = 0; i < 4; ++i)
+    clouds = min(clouds, texelFetch(uMarchedDepth, clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last), 0).x);
+  if (hostDistance(uHostDepth, vUv, ray) < min(kBefore * 4.0 * clouds, kNear)) cloud = vec4(vec3(0.0), 1.0);
+#endif
   if (uOptions.z > 2.5) cloud = vec4(cloud.aaa, 0.0);
 #if defined(SKY) || defined(DISC) || defined(MOON) || defined(STARS)
-  vec3 ray = rayAt(uv * 2.0 - 1.0);
   vec3 dir = normalize(ray), behind = vec3(0.0);
 #ifdef DISC
   behind += sunDisc(uAir, dir, uOptions.w);
