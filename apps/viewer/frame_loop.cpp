@@ -89,8 +89,11 @@ void Viewer::run() {
     std::optional<ScriptStep> step;
     bool finished = false;
     if (script_) {
+      const bool complete = atRest() && thumbnails_.complete() && bench_.slice.slice.complete();
       ScriptPlayer::Frame frame = script_->next([&](const std::string& name) { return interface_.items.find(name); },
-                                                atRest() && thumbnails_.complete() && bench_.slice.slice.complete());
+                                                bench_.playing ? Rest::runs
+                                                : complete     ? Rest::there
+                                                               : Rest::comes);
       // The user's hands stay out of a script.
       std::erase_if(events, [](const Event& e) { return e.kind != EventKind::quit && e.kind != EventKind::resize; });
       events.insert(events.end(), frame.events.begin(), frame.events.end());

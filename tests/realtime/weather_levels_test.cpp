@@ -86,6 +86,46 @@ TEST_P(WeatherOnTheGpu, IsTheCpus) {
   }
 }
 
+// A level that moves on comes in blocks, shown when the last of them is there; one that has come back meanwhile does not
+// keep others from coming.
+TEST(WeatherLevels, MoveOnABlockAtATime) {
+  gl::Context context;
+  const gl::Api gl = gl::loadApi(context.loader());
+  const gl::Program program(gl, "weather", "", std::string(shaderSource("welkin/realtime/shaders/weather.frag.glsl")),
+                            shaderSource);
+  const Layer layer;
+  const gl::Texture white = textureFromVolume(gl, Volume(1, 1, 1, 4));
+  WeatherLevels levels(gl, kExtent, 1, true);
+  gl::Framebuffer framebuffer(gl);
+  gl::UniformBuffer buffer(gl);
+  const gl::VertexArray triangle(gl);
+  gl.BindVertexArray(triangle.id());
+  const Drift drift{0.0f, 0.0f, 0.0};
+  const auto update = [&](double east) {
+    return levels.update(0, layer, {east, 0.0}, drift, 5, program, framebuffer, buffer, white, 1);
+  };
+  ASSERT_EQ(update(0.0), kExtent.levels);
+  EXPECT_EQ(update(100.0), 0);
+  const double away = 0.1 * kExtent.finest;
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(update(away), 0);
+  EXPECT_EQ(update(0.0), 0);
+  for (int i = 0; i < 63; ++i) EXPECT_EQ(update(-away), 0) << i;
+  EXPECT_EQ(update(-away), 1);
+  EXPECT_EQ(update(-away), 0);
+
+  std::vector<float> found(static_cast<std::size_t>(kExtent.texels) * kExtent.texels * 4);
+  const gl::Texture* targets[] = {&levels.main()};
+  framebuffer.target(targets, 0);
+  gl.ReadPixels(0, 0, kExtent.texels, kExtent.texels, GL_RGBA, GL_FLOAT, found.data());
+  const double texel = kExtent.finest / kExtent.texels;
+  const Volume expected =
+      bakeWeather(layer, {std::floor(-away / texel) * texel, 0.0}, kExtent.finest, kExtent.texels, drift, 5);
+  double most = 0.0;
+  for (std::size_t i = 0; i < found.size(); i += 4)
+    most = std::max(most, std::abs(static_cast<double>(found[i] - expected.texels[i])));
+  EXPECT_LE(most, 2e-3 * layer.cloud.thickness);  // as above
+}
+
 INSTANTIATE_TEST_SUITE_P(Layers, WeatherOnTheGpu,
                          testing::Combine(testing::Values(std::tuple(LayerShape::profile, Population::clusters, false),
                                                           std::tuple(LayerShape::profile, Population::domes, true),

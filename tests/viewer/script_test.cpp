@@ -27,7 +27,7 @@ std::vector<std::string> play(const std::string& text, const FindItem& find = kN
   ScriptPlayer player(parseScript(text, "a.txt"));
   std::vector<std::string> frames;
   for (int i = 0; i < 1000; ++i) {
-    const ScriptPlayer::Frame frame = player.next(find, true);
+    const ScriptPlayer::Frame frame = player.next(find, Rest::there);
     if (frame.finished) return frames;
     std::string line;
     for (const Event& e : frame.events) {
@@ -103,14 +103,22 @@ TEST(Script, TailsKeepTheirSpaces) {
 
 TEST(Script, SettlingWaitsUntilThePictureRestsAndNotForEver) {
   ScriptPlayer player(parseScript("settle\nscreenshot a.png", "a.txt"));
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(player.next(kNothing, false).command);
-  EXPECT_TRUE(player.next(kNothing, true).command);
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(player.next(kNothing, Rest::comes).command);
+  EXPECT_TRUE(player.next(kNothing, Rest::there).command);
   ScriptPlayer endless(parseScript("settle", "a.txt"));
   EXPECT_THROW(
       {
-        for (int i = 0; i < 5000; ++i) endless.next(kNothing, false);
+        for (int i = 0; i < 5000; ++i) endless.next(kNothing, Rest::comes);
       },
       Error);
+}
+
+TEST(Script, RestIsNotWaitedForWhileTimeRuns) {
+  ScriptPlayer player(parseScript("frames 2\nsettle", "a.txt"));
+  const auto run = [&] {
+    for (int i = 0; i < 10; ++i) player.next(kNothing, Rest::runs);
+  };
+  EXPECT_THROW(run(), Error);
 }
 
 TEST(Script, RandomHandsDoTheSameAgainAndLetGo) {

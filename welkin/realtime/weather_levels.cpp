@@ -11,6 +11,8 @@ namespace welkin::realtime {
 
 namespace {
 constexpr int kCell = 4;  // texels of a cell of the bounds
+// A level that moves on is made in blocks, kAcross along each edge: a frame waits for one of them only.
+constexpr int kAcross = 8;
 }  // namespace
 
 WeatherExtent weatherExtent(QualityPreset preset) {
@@ -38,6 +40,7 @@ bool WeatherLevels::fits(const WeatherExtent& extent, int layers) const {
 
 void WeatherLevels::change() {
   for (Level& level : levels_) level.changed = true;
+  job_.reset();
 }
 
 bool WeatherLevels::changing() const {
@@ -67,11 +70,26 @@ int WeatherLevels::update(int index, const Layer& layer, const glm::dvec2& posit
   const int left = std::max(most - static_cast<int>(useless.size()), 0);
   if (left < static_cast<int>(stale.size())) stale.resize(static_cast<std::size_t>(left));
   stale.insert(stale.begin(), useless.begin(), useless.end());
+  const auto inHand = [&](int level) { return job_ && job_->slice == first + level; };
+  // What has come back into reach, or has to wait for another level, is not gone on with.
+  for (int level = 0; level < extent_.levels; ++level)
+    if (inHand(level) && std::find(stale.begin(), stale.end(), level) == stale.end()) job_.reset();
+  int drawn = 0;
   for (const int level : stale) {
+    const Level& now = at(level);
+    const bool moves = now.shown && !now.changed && away(level, now, inAir) <= kUseless;
+    if (moves && most != kAll && onProcessor_ && layer.weather.map.empty() && extent_.texels % kAcross == 0) {
+      if (!job_)
+        job_ = Job{first + level, 0, levelCentre(extent_, level, inAir), Volume(extent_.texels, extent_.texels, 1, 4)};
+      if (inHand(level)) drawn += goOn(level, layer, drift, seed, framebuffer) ? 1 : 0;
+      continue;
+    }
+    if (inHand(level)) job_.reset();
+    ++drawn;
     at(level) = {levelCentre(extent_, level, inAir), true, false, ++count_};
     fill(level, first + level, layer, drift, seed, program, framebuffer, buffer, map);
   }
-  return static_cast<int>(stale.size());
+  return drawn;
 }
 
 // With the level's centre as anchor, in still air.
@@ -80,7 +98,8 @@ void WeatherLevels::fill(int level, int slice, const Layer& layer, const Drift& 
                          const gl::Texture& map) {
   const Drift still{drift.windSpeed, drift.windFrom, 0.0};
   if (onProcessor_ && layer.weather.map.empty()) {
-    upload(level, slice, layer, still, seed);
+    upload(slice, bakeWeather(layer, levels_[static_cast<std::size_t>(slice)].centre, extent_.edge(level),
+                              extent_.texels, still, seed));
     return fillBounds(layer, level, slice, framebuffer);
   }
   const law::WeatherParams params = weatherParams(layer, levels_[static_cast<std::size_t>(slice)].centre, still, seed);
@@ -99,9 +118,26 @@ void WeatherLevels::fill(int level, int slice, const Layer& layer, const Drift& 
   fillBounds(layer, level, slice, framebuffer);
 }
 
-void WeatherLevels::upload(int level, int slice, const Layer& layer, const Drift& drift, int seed) {
-  const Volume weather = bakeWeather(layer, levels_[static_cast<std::size_t>(slice)].centre, extent_.edge(level),
-                                     extent_.texels, drift, seed);
+bool WeatherLevels::goOn(int level, const Layer& layer, const Drift& drift, int seed, gl::Framebuffer& framebuffer) {
+  Job& job = *job_;
+  const int texels = extent_.texels / kAcross, column = job.block % kAcross, row = job.block / kAcross;
+  const double edge = extent_.edge(level) / kAcross;
+  const glm::dvec2 centre = job.centre + edge * (glm::dvec2(column, row) + 0.5 - 0.5 * kAcross);
+  const Volume block = bakeWeather(layer, centre, edge, texels, {drift.windSpeed, drift.windFrom, 0.0}, seed);
+  const auto wide = static_cast<std::ptrdiff_t>(4) * texels;
+  for (int y = 0; y < texels; ++y)
+    std::copy_n(block.texels.begin() + y * wide, wide,
+                job.weather.texels.begin() +
+                    ((static_cast<std::ptrdiff_t>(row) * texels + y) * extent_.texels + column * texels) * 4);
+  if (++job.block < kAcross * kAcross) return false;
+  levels_[static_cast<std::size_t>(job.slice)] = {job.centre, true, false, ++count_};
+  upload(job.slice, job.weather);
+  fillBounds(layer, level, job.slice, framebuffer);
+  job_.reset();
+  return true;
+}
+
+void WeatherLevels::upload(int slice, const Volume& weather) {
   std::vector<float> pairs(weather.texels.size() / 2);
   gl_.ActiveTexture(GL_TEXTURE0);
   for (std::size_t part = 0; part < 2; ++part) {

@@ -2,6 +2,7 @@
 // Clip levels of the weather: nested squares round the camera in two texture arrays, those of all cloud layers one
 // after the other, made anew when the camera leaves the middle of a level or the weather changes.
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "welkin/density/clip_levels.hpp"
@@ -29,7 +30,8 @@ class WeatherLevels {
 
   // Makes what layer `index` lacks for a camera at `position`: all levels that are of no use there and, of those that
   // have but to be brought up to date, so many (`most`), those that have waited longest. `map`: its authoring picture
-  // (a white texel if none). Returns the number of levels drawn. Leaves framebuffer, program and viewport changed.
+  // (a white texel if none). On the processor levels that have moved on are made a block with each call, unless all are
+  // asked for. Returns the number of levels drawn. Leaves framebuffer, program and viewport changed.
   int update(int index, const Layer& layer, const glm::dvec2& position, const Drift& drift, int seed,
              const gl::Program& program, gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer,
              const gl::Texture& map, int most = kAll);
@@ -49,10 +51,18 @@ class WeatherLevels {
     bool changed = false;    // from before the last change
     long drawn = 0;          // when, counted in levels
   };
+  // A level on its way, made on the processor.
+  struct Job {
+    int slice = 0, block = 0;
+    glm::dvec2 centre{0.0};
+    Volume weather;
+  };
   double away(int level, const Level& cached, const glm::dvec2& inAir) const;
   void fill(int level, int slice, const Layer& layer, const Drift& drift, int seed, const gl::Program& program,
             gl::Framebuffer& framebuffer, gl::UniformBuffer& buffer, const gl::Texture& map);
-  void upload(int level, int slice, const Layer& layer, const Drift& drift, int seed);
+  // Goes on with the job; returns whether its level is drawn.
+  bool goOn(int level, const Layer& layer, const Drift& drift, int seed, gl::Framebuffer& framebuffer);
+  void upload(int slice, const Volume& weather);
   void fillBounds(const Layer& layer, int level, int slice, gl::Framebuffer& framebuffer);
 
   const gl::Api& gl_;
@@ -62,6 +72,7 @@ class WeatherLevels {
   gl::Program boundsPass_;
   std::vector<Level> levels_;  // layer by layer
   long count_ = 0;             // of levels drawn
+  std::optional<Job> job_;
 };
 
 }  // namespace welkin::realtime

@@ -206,14 +206,17 @@ void ScriptPlayer::chord(const Chord& chord, int frames) {
 }
 
 // Puts a step's frames into the queue; false when it has to wait.
-bool ScriptPlayer::expand(const ScriptStep& step, const FindItem& find, bool settled) {
+bool ScriptPlayer::expand(const ScriptStep& step, const FindItem& find, Rest rest) {
   const std::string& verb = step.verb;
   const auto& words = step.words;
   const auto buttonAt = [&](std::size_t i) { return words.size() > i ? *buttonOf(words[i]) : MouseButton::left; };
   if (verb == "settle") {
     // A change of the frame before shows in what is settled only after one more frame.
-    if ((!settled || waited_ < 2) && waited_ >= kSettlePatience) fail(step, "the picture does not come to rest");
-    return settled && waited_ >= 2;
+    if (waited_ < 2) return false;
+    if (rest == Rest::runs)
+      fail(step, "the picture does not come to rest while time runs; 'key space' before it stops the time");
+    if (rest == Rest::comes && waited_ >= kSettlePatience) fail(step, "the picture does not come to rest");
+    return rest == Rest::there;
   }
   if (verb == "move" || verb == "click" || verb == "drag") {
     const std::size_t count = verb == "drag" ? 2 : 1;
@@ -266,7 +269,7 @@ bool ScriptPlayer::expand(const ScriptStep& step, const FindItem& find, bool set
   return true;
 }
 
-ScriptPlayer::Frame ScriptPlayer::next(const FindItem& find, bool settled) {
+ScriptPlayer::Frame ScriptPlayer::next(const FindItem& find, Rest rest) {
   while (queue_.empty()) {
     if (hands_ && handsFrames_-- > 0) return {hands_->next(), {}, false};
     if (hands_) {
@@ -275,7 +278,7 @@ ScriptPlayer::Frame ScriptPlayer::next(const FindItem& find, bool settled) {
       break;
     }
     if (at_ >= script_.steps.size()) return {{}, {}, true};
-    if (!expand(script_.steps[at_], find, settled)) {
+    if (!expand(script_.steps[at_], find, rest)) {
       ++waited_;
       return {};
     }

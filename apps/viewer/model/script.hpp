@@ -33,6 +33,9 @@ struct Box {
 };
 using FindItem = std::function<std::optional<Box>(const std::string& name)>;
 
+// Of the picture on screen: time runs, or it will come to rest, or nothing in it changes by itself any more.
+enum class Rest { runs, comes, there };
+
 // Hands out a script's events frame by frame. The same script gives the same frames: it counts frames, not seconds.
 class ScriptPlayer {
  public:
@@ -44,9 +47,9 @@ class ScriptPlayer {
                                         // "fly" before it
     bool finished = false;              // there is nothing more
   };
-  // `settled`: the picture on screen will not change by itself. Throws Error (badInput) for an item that does not
-  // appear within 120 frames, and when the picture does not settle within 2000.
-  Frame next(const FindItem& find, bool settled);
+  // Throws Error (badInput) for an item that does not appear within 120 frames, and for a step that waits for rest when
+  // time runs or it does not come within 2000.
+  Frame next(const FindItem& find, Rest rest);
 
   // Whether hands do anything at present: then nothing that they do ends the script.
   bool playsRandomly() const { return hands_.has_value(); }
@@ -54,7 +57,7 @@ class ScriptPlayer {
   [[noreturn]] void fail(const ScriptStep& step, const std::string& what) const;
 
  private:
-  bool expand(const ScriptStep& step, const FindItem& find, bool settled);
+  bool expand(const ScriptStep& step, const FindItem& find, Rest rest);
   std::optional<glm::vec2> place(const std::string& word, const FindItem& find) const;
   void moveTo(const glm::vec2& to);
   void button(MouseButton which, bool down);
