@@ -37,9 +37,14 @@ bool maySee(const glm::mat4& clip, const glm::vec3& low, const glm::vec3& high) 
 
 }  // namespace
 
-LandMesh::LandMesh(const gl::Api& gl, const Terrain& terrain)
+LandMesh::LandMesh(const gl::Api& gl, const Terrain& terrain, const glm::dvec3& eye)
     : gl_(gl), terrain_(terrain), texture_(gl, gl::Texture::Kind::array, gl::kRgba32F, kTexels, kTexels, kLevels,
                                            gl::Filter::linear, gl::Addressing::clamp, nullptr) {
+  begun_ = std::async(std::launch::async, [this, eye] {
+    std::array<Heights, kLevels> all;
+    for (int l = 0; l < kLevels; ++l) all[static_cast<std::size_t>(l)] = heightsAt(l, cornerAt(l, eye), {});
+    return all;
+  });
   std::vector<std::uint16_t> indices;
   // A hole leaves its outermost cells to both, against gaps.
   const auto add = [&](Ring& ring, int step, const glm::ivec2& low, const glm::ivec2& high) {
@@ -88,46 +93,61 @@ void LandMesh::update(const glm::dvec3& eye, int width) {
   first_ = 0;
   while (first_ + 2 < kLevels && above > kHighest * cellOf(first_)) ++first_;
   sunken_ = static_cast<float>(std::clamp((above / cellOf(first_) - kHigh) / (kHighest - kHigh), 0.0, 1.0));
+  if (begun_.valid()) {
+    std::array<Heights, kLevels> begun = begun_.get();
+    for (int l = 0; l < kLevels; ++l) {
+      static_cast<Heights&>(levels_[static_cast<std::size_t>(l)]) = std::move(begun[static_cast<std::size_t>(l)]);
+      upload(l);
+    }
+  }
   for (int l = first_; l < kLevels; ++l) {
-    const double snap = 4.0 * cellOf(l);  // every second vertex falls on one of the next level
-    const glm::dvec2 centre(std::round(eye.x / snap) * snap, std::round(eye.y / snap) * snap);
-    const glm::dvec2 corner = centre - 0.5 * kCells * cellOf(l);
-    const Level& level = levels_[static_cast<std::size_t>(l)];
-    if (level.heights.empty() || level.corner != corner) make(l, corner);
+    Level& level = levels_[static_cast<std::size_t>(l)];
+    const glm::dvec2 corner = cornerAt(l, eye);
+    if (level.corner == corner) continue;
+    static_cast<Heights&>(level) = heightsAt(l, corner, level);
+    upload(l);
   }
 }
 
-void LandMesh::make(int index, const glm::dvec2& corner) {
-  Level& level = levels_[static_cast<std::size_t>(index)];
-  const double spacing = 0.5 * cellOf(index);
-  // What is known of it already, so many texels aside.
-  const glm::dvec2 aside = (corner - level.corner) / spacing;
-  const bool known = !level.heights.empty() && std::max(std::abs(aside.x), std::abs(aside.y)) < kWide;
-  const int right = known ? static_cast<int>(std::lround(aside.x)) : kWide,
-            up = known ? static_cast<int>(std::lround(aside.y)) : kWide;
-  std::vector<float> heights(static_cast<std::size_t>(kWide) * kWide), woods(heights.size());
+glm::dvec2 LandMesh::cornerAt(int level, const glm::dvec3& eye) {
+  const double snap = 4.0 * cellOf(level);  // every second vertex falls on one of the next level
+  const glm::dvec2 centre(std::round(eye.x / snap) * snap, std::round(eye.y / snap) * snap);
+  return centre - 0.5 * kCells * cellOf(level);
+}
+
+LandMesh::Heights LandMesh::heightsAt(int level, const glm::dvec2& corner, const Heights& known) const {
+  const double spacing = 0.5 * cellOf(level);
+  // So many texels aside.
+  const glm::dvec2 aside = (corner - known.corner) / spacing;
+  const bool some = !known.heights.empty() && std::max(std::abs(aside.x), std::abs(aside.y)) < kWide;
+  const int right = some ? static_cast<int>(std::lround(aside.x)) : kWide,
+            up = some ? static_cast<int>(std::lround(aside.y)) : kWide;
+  constexpr std::size_t kCount = static_cast<std::size_t>(kWide) * kWide;
+  Heights now{corner, std::vector<float>(kCount), std::vector<float>(kCount)};
   const auto place = [](int x, int y) { return static_cast<std::size_t>(y) * kWide + static_cast<std::size_t>(x); };
   parallelFor(kWide, 4, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < kWide; ++x) {
         const int fromX = x + right, fromY = y + up;
         if (fromX >= 0 && fromX < kWide && fromY >= 0 && fromY < kWide) {
-          heights[place(x, y)] = level.heights[place(fromX, fromY)];
-          woods[place(x, y)] = level.woods[place(fromX, fromY)];
+          now.heights[place(x, y)] = known.heights[place(fromX, fromY)];
+          now.woods[place(x, y)] = known.woods[place(fromX, fromY)];
         } else {
           const double east = corner.x + spacing * (x - 1), north = corner.y + spacing * (y - 1);
-          heights[place(x, y)] = static_cast<float>(terrain_.height(east, north));
-          woods[place(x, y)] = static_cast<float>(terrain_.woods(east, north));
+          now.heights[place(x, y)] = static_cast<float>(terrain_.height(east, north));
+          now.woods[place(x, y)] = static_cast<float>(terrain_.woods(east, north));
         }
       }
   });
-  level.corner = corner;
-  level.heights = std::move(heights);
-  level.woods = std::move(woods);
+  return now;
+}
 
+void LandMesh::upload(int index) {
+  Level& level = levels_[static_cast<std::size_t>(index)];
+  const auto place = [](int x, int y) { return static_cast<std::size_t>(y) * kWide + static_cast<std::size_t>(x); };
   const auto at = [&](int x, int y) { return level.heights[place(x + 1, y + 1)]; };
   std::vector<float> texels(static_cast<std::size_t>(kTexels) * kTexels * 4);
-  const auto twice = static_cast<float>(2.0 * spacing);
+  const auto twice = static_cast<float>(cellOf(index));  // m between every second texel
   for (int y = 0; y < kTexels; ++y)
     for (int x = 0; x < kTexels; ++x) {
       float* t = &texels[(static_cast<std::size_t>(y) * kTexels + static_cast<std::size_t>(x)) * 4];

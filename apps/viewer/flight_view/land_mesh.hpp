@@ -2,6 +2,7 @@
 // The land as nested square grids round the eye, each twice as coarse and as wide as the one inside it (F. Losasso and
 // H. Hoppe, "Geometry clipmaps", 2004), drawn by blocks that may be in sight.
 #include <array>
+#include <future>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <span>
@@ -23,7 +24,8 @@ class LandMesh {
   static constexpr double kFinest = 16.0;          // m, a cell of the innermost grid
   static constexpr int kTexels = 2 * kCells + 1;   // a side of a level's texture: twice as fine as its mesh
 
-  LandMesh(const gl::Api& gl, const Terrain& terrain);
+  // Begins at once, beside what else the program does, with the land round `eye`.
+  LandMesh(const gl::Api& gl, const Terrain& terrain, const glm::dvec3& eye);
   ~LandMesh();
   LandMesh(const LandMesh&) = delete;
   LandMesh& operator=(const LandMesh&) = delete;
@@ -54,13 +56,18 @@ class LandMesh {
   struct Ring {
     std::array<Block, kBlocks * kBlocks> blocks{};
   };
-  struct Level {
+  struct Heights {
     glm::dvec2 corner{0.0};
     std::vector<float> heights, woods;
+  };
+  struct Level : Heights {
     std::array<glm::vec2, kBlocks * kBlocks> range{};  // of the heights in and next to each block
   };
   static double cellOf(int level) { return kFinest * (1 << level); }
-  void make(int level, const glm::dvec2& corner);
+  static glm::dvec2 cornerAt(int level, const glm::dvec3& eye);
+  // Of a level, what `known` of it holds taken over.
+  Heights heightsAt(int level, const glm::dvec2& corner, const Heights& known) const;
+  void upload(int level);
   static std::size_t stepIndex(int step) { return step == 1 ? 0 : 1; }
   const Ring& ringOf(int level) const;
   glm::vec4 cornerOf(int level, const glm::dvec3& eye) const;
@@ -70,6 +77,7 @@ class LandMesh {
   const gl::Api& gl_;
   const Terrain& terrain_;
   std::array<Level, kLevels> levels_;
+  std::future<std::array<Heights, kLevels>> begun_;
   gl::Texture texture_;  // height, slopes to east and north, woods; a layer for each level
   int first_ = 0;        // the finest level that is drawn: from high up the finest ones show nothing
   float sunken_ = 0.0f;  // how far that one has taken the shape of the next
