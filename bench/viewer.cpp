@@ -47,7 +47,8 @@ int main(int argc, char** argv) {
   using namespace welkin;
   int frames = 40, rounds = 3;
   CLI::App app{"Frames a second of `welkin view` and `welkin fly`, and how long until the first."};
-  app.add_option("--frames", frames, "counted of each run; of those that are governed ten times as many")->check(CLI::Range(4, 10000));
+  app.add_option("--frames", frames, "counted of each run; of those that are governed ten times as many")
+      ->check(CLI::Range(4, 10000));
   app.add_option("--rounds", rounds, "of which the median counts")->check(CLI::Range(1, 100));
   CLI11_PARSE(app, argc, argv);
 

@@ -101,7 +101,8 @@ TEST(HostDepth, ThinThingsStandBeforeTheClouds) {
       const int wire = kWidth / 2 + i;
       std::vector<float> texels(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
       for (int y = 0; y < kHeight; ++y)
-        texels[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(wire)] = depthOf(distance, Depth::infinite);
+        texels[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(wire)] =
+            depthOf(distance, Depth::infinite);
       const gl::Texture depth = stage.depth(texels);
       frame.depthTexture = depth.id();
       const Image image = stage.draw(view, frame, glm::vec4(1.0f));

@@ -86,8 +86,8 @@ TEST_P(WeatherOnTheGpu, IsTheCpus) {
   }
 }
 
-// A level that moves on comes in blocks, shown when the last of them is there; one that has come back meanwhile does not
-// keep others from coming.
+// A level that moves on comes in blocks, shown when the last of them is there; one that has come back meanwhile does
+// not keep others from coming.
 TEST(WeatherLevels, MoveOnABlockAtATime) {
   gl::Context context;
   const gl::Api gl = gl::loadApi(context.loader());

@@ -25,13 +25,13 @@ constexpr std::size_t kMild = 15;    // frames before a small excess counts
 constexpr std::size_t kCalm = 24;    // frames before a better rung is tried
 constexpr std::size_t kProof = 120;  // frames after which a climb has proved right
 constexpr std::size_t kMostPatience = 16;
-constexpr double kFarOver = 1.25, kOver = 1.03;  // times over the target that call for less
-constexpr double kAimDown = 0.95, kAimUp = 0.9;  // where a change is meant to end
-constexpr double kMostRest = 0.9;                // share of a frame that may be out of reach
-constexpr double kMostRestDown = 0.5;            // the same while time is short: too far down is put right soon
+constexpr double kFarOver = 1.25, kOver = 1.03;      // times over the target that call for less
+constexpr double kAimDown = 0.95, kAimUp = 0.9;      // where a change is meant to end
+constexpr double kMostRest = 0.9;                    // share of a frame that may be out of reach
+constexpr double kMostRestDown = 0.5;                // the same while time is short: too far down is put right soon
 constexpr int kSlowLight = 96, kSlowestLight = 240;  // frames for a level of the light volume, at first and at last
-constexpr double kStepRatio = 1.2;               // between rungs that differ in step scale
-constexpr float kScaleRatio = 0.84f;             // between those that differ in resolution: 0.7 of the pixels
+constexpr double kStepRatio = 1.2;                   // between rungs that differ in step scale
+constexpr float kScaleRatio = 0.84f;                 // between those that differ in resolution: 0.7 of the pixels
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

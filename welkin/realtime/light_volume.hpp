@@ -115,7 +115,7 @@ class LightVolume {
   std::vector<Level> levels_;
   std::optional<Job> job_;
   double due_ = 0.0;  // work of this frame; below 0: done ahead of the next ones
-  int last_ = 0;  // level that was made last; coarse ones come before finer ones, then coarse ones again
+  int last_ = 0;      // level that was made last; coarse ones come before finer ones, then coarse ones again
   // Of the last place().
   Purpose wanted_;
   Shell shell_{};

@@ -25,6 +25,7 @@ struct ShadedAir {
   Vec3 radiance;
   Real share;
   AirShade segments;
+  Vec2 way;
 };
 
 // The air on the way to `distance`, each metre taking `loss` of the light.
@@ -34,6 +35,7 @@ FN ShadedAir shadedAir(IN(Vec3) dir, IN(Real) distance, IN(Real) loss, IN(Vec3) 
   s.radiance = xyz(m.shadedAir);
   s.share = Real(m.shadedAir.w);
   s.segments = skyAirShade(sky);
+  s.way = wayInShade(dir, m.bottom, m.top, m.planet);
   if (kLightVolume == 0 && m.planet.altitude >= m.bottom) s.share = Real(0.0f);
   if (kLightVolume != 0) {
     Real end = 1.0f - exp(-loss * distance);
@@ -53,7 +55,7 @@ FN void airBefore(IN(Vec3) dir, IN(Real) distance, IN(ShadedAir) shaded, IN(Atmo
                   OUT(Vec3) through) {
   lookupAerial(aerialInscatter, aerialTransmittance, air, dir, distance, inscatter, through);
   Real share = shaded.share;
-  if (kLightVolume != 0) share = shadeBefore(shaded.segments, distance, lossOf(through, distance));
+  if (kLightVolume != 0) share = shadeBefore(shaded.segments, distance, lossOf(through, distance), shaded.way);
   inscatter = mix(inscatter, shaded.radiance * (Vec3(1.0f) - through), share);
 }
 
@@ -163,7 +165,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   if (kLightVolume != 0)
     missing = (shaded.radiance * (Vec3(1.0f) - through) - inscatter) *
               (m.skyBehind *
-               select(either(ground, limit < 5e7f), Real(0.0f), shadeBefore(shaded.segments, reach, loss)));
+               select(either(ground, limit < 5e7f), Real(0.0f), shadeBefore(shaded.segments, reach, loss, shaded.way)));
   airBefore(dir, r.depth, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
   Real fade = 1.0f - smoothstep(0.55f * m.maxDistance, 0.98f * m.maxDistance, r.depth);
   Real opacity = (1.0f - r.transmittance) * fade;

@@ -186,9 +186,8 @@ LandKind LandMesh::kindOf(const glm::dvec2& low, const glm::dvec2& high, const g
   const glm::dvec2 toRunway = glm::clamp(glm::dvec2(0.0), low, high),
                    toAircraft = glm::clamp(glm::dvec2(aircraft), low, high) - glm::dvec2(aircraft);
   const double above = std::max(aircraft.z - static_cast<double>(std::max(range.y, 0.0f)), 0.0);
-  const bool close =
-      glm::length(toRunway) < std::hypot(0.5 * runway.length, 0.5 * runway.width) + kRunwayReach ||
-      std::hypot(toAircraft.x, toAircraft.y, above) < kShadeReach;
+  const bool close = glm::length(toRunway) < std::hypot(0.5 * runway.length, 0.5 * runway.width) + kRunwayReach ||
+                     std::hypot(toAircraft.x, toAircraft.y, above) < kShadeReach;
   if (range.x > kShore) return close ? LandKind::closeLand : LandKind::land;
   if (close) return LandKind::closeShore;
   return range.y < -kShore ? LandKind::sea : LandKind::shore;

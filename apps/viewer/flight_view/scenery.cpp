@@ -217,10 +217,10 @@ Scenery::Scenery(const gl::Api& gl, const Flight& flight)
     : gl_(gl), flight_(flight), shape_(gl, "land's shape", "", kShapeFragment, realtime::shaderSource, kShapeVertex),
       place_(makeProgram(gl, "place", "", kPlaceFragment, "")),
       model_(gl, "model", "", kModelFragment, realtime::shaderSource, kModelVertex),
-      propeller_(makeProgram(gl, "propeller", "", kPropellerFragment, kPropellerVertex)), mesh_(gl, flight.terrain(), flight.aircraft().position),
-      aircraft_(gl, aircraftMesh()), airfield_(gl, airfieldMesh()),
-      light_(gl, gl::Texture::Kind::plane, gl::kRgba32F, kPlaceTexels, 1, 0, gl::Filter::nearest, gl::Addressing::clamp,
-             nullptr),
+      propeller_(makeProgram(gl, "propeller", "", kPropellerFragment, kPropellerVertex)),
+      mesh_(gl, flight.terrain(), flight.aircraft().position), aircraft_(gl, aircraftMesh()),
+      airfield_(gl, airfieldMesh()), light_(gl, gl::Texture::Kind::plane, gl::kRgba32F, kPlaceTexels, 1, 0,
+                                            gl::Filter::nearest, gl::Addressing::clamp, nullptr),
       none_(gl), shapes_(gl), lights_(gl) {}
 
 void Scenery::drawSurfaces(const realtime::Frame& frame, const Target& target, const Bind& bind) {

@@ -24,8 +24,9 @@ void main() {
   for (int k = 0; k < 4; ++k) {
     float dark = 0.0;
     for (int i = 0; i < kSamples; ++i) {
-      float t = start + length_ * ((float(i) + 0.5) / float(kSamples));
-      dark += 1.0 - exp(-kReduced * lookupSunDepth(cloudSpace(dir * t, uMarch.planet), 0.5, uVolume, uSun));
+      vec3 q = cloudSpace(dir * (start + length_ * ((float(i) + 0.5) / float(kSamples))), uMarch.planet);
+      if (far && k + 4 >= kShadeFar) q.z = min(q.z, shadeAltitude(uMarch.bottom, uMarch.top));
+      dark += 1.0 - exp(-kReduced * lookupSunDepth(q, 0.5, uVolume, uSun));
     }
     oShade[k] = dark / float(kSamples);
     start += length_;

@@ -105,7 +105,8 @@ vec3 shadedInscatter(vec3 dir, float distance_, vec3 inscatter, vec3 through) {
     float t = -log(1.0 - end * (0.25 + 0.5 * float(i))) / max(loss, 1e-7);
     light += 0.5 * skyBelow(dir.xy * min(t, distance_), sunAbove);
   }
-  float dark = shadeBefore(lookupAirShade(pictureAt(dir), uWelkinAirShade), distance_, loss);
+  vec2 way = wayInShade(dir, uWelkin.bottom, uWelkin.top, uWelkin.planet);
+  float dark = shadeBefore(lookupAirShade(pictureAt(dir), uWelkinAirShade), distance_, loss, way);
   return mix(inscatter, light * uWelkin.shadedAir.xyz * (1.0 - through), dark);
 }
 
