@@ -52,6 +52,8 @@ TEST(Governor, RungsGoFromTheBestToTheWorstAndAlwaysGetCheaper) {
     const Governor governor(settings);
     const std::vector<Quality>& rungs = governor.rungs();
     EXPECT_EQ(rungs.front(), settings.best);
+    EXPECT_GT(rungs[1].lightFrames, rungs[0].lightFrames) << "light gives way first";
+    EXPECT_EQ(rungs.back().lightFrames, settings.worst.lightFrames);
     EXPECT_EQ(rungs.back().stepScale, settings.worst.stepScale);
     EXPECT_EQ(rungs.back().historyScale, settings.worst.historyScale);
     EXPECT_EQ(rungs.back().interleave, settings.worst.interleave);

@@ -27,15 +27,13 @@ FN Real lossOf(IN(Vec3) through, IN(Real) distance) {
 }
 
 // Share of the light that a segment from `start` to `end` m scatters toward the eye, each metre taking `loss` of it.
-FN Real segmentLight(IN(float) start, IN(float) end, IN(Real) distance, IN(Real) loss) {
-  return exp(-loss * min(Real(start), distance)) - exp(-loss * min(Real(end), distance));
+FN Real segmentLight(IN(Real) start, IN(Real) end, IN(Real) distance, IN(Real) loss) {
+  return exp(-loss * min(start, distance)) - exp(-loss * min(end, distance));
 }
 
 // The same of its part on the way from `way.x` to `way.y`.
 FN Real segmentLightOn(IN(float) start, IN(float) end, IN(Real) distance, IN(Real) loss, IN(Vec2) way) {
-  Real from = clamp(Real(start), way.x, way.y);
-  Real to = clamp(Real(end), way.x, way.y);
-  return exp(-loss * min(from, distance)) - exp(-loss * min(to, distance));
+  return segmentLight(clamp(Real(start), way.x, way.y), clamp(Real(end), way.x, way.y), distance, loss);
 }
 
 // Share of the air's light on the way to `distance` that is scattered in shade; `way` is wayInShade().

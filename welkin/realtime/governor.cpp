@@ -14,7 +14,8 @@ namespace {
 
 // Shares of a frame of quality high, fitted to what the rungs cost on bench/governor.cpp's flight (llvmpipe): the
 // march, where each near step toward the sun costs kPerLightStep of a point and longer steps save less than they skip;
-// what every pixel of the history and of the picture costs; and the light volume, when a level takes 24 frames.
+// what every pixel of the history and of the picture costs. The light volume's, when a level takes 24 frames, is an
+// estimate: in small pictures it is far more.
 constexpr double kMarch = 0.64, kHistory = 0.17, kPicture = 0.11, kLight = 0.08, kPerLightStep = 0.12;
 constexpr double kStepPower = 0.55;
 

@@ -1,6 +1,7 @@
 // Composite pass: the history over the sky, or over the host's picture by blending (one, source alpha). The history has
 // the sky in it where no geometry of the host hides it. Variants, since the software driver runs all of a shader: SKY
-// adds the sky here, up to the edges of the host's geometry; DEPTH keeps clouds behind what the host has drawn; DISC, MOON and STARS add what is sharper than the history.
+// adds the sky here, up to the edges of the host's geometry; DEPTH keeps clouds behind what the host has drawn; DISC,
+// MOON and STARS add what is sharper than the history.
 #include "welkin/base/law.glsl"
 #include "welkin/light/phase.glsl"
 #include "welkin/light/transmittance.glsl"
@@ -21,8 +22,9 @@ uniform sampler2D uTransmittance;
 uniform sampler2D uHostDepth;
 uniform sampler2D uMarchedDepth;
 
-// What is nearer than this share of the clouds' distance has none before it, nor rain to speak of within so many m.
-const float kBefore = 0.6, kNear = 100.0;
+// What is nearer than this share of the clouds' distance has next to none before it, in fog too, and within so many m no
+// rain to speak of.
+const float kBefore = 0.2, kNear = 100.0;
 
 in vec2 vUv;
 layout(location = 0) out vec4 oColour;
