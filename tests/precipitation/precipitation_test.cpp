@@ -109,17 +109,5 @@ TEST(Streaks, CoverTheAreaOfTheirParticle) {
   EXPECT_LT(streakOpacity(100.0f, 1.0f, 1.0f), 1.0f);
 }
 
-TEST(Drops, SendWhatComesInWhenLightComesFromAllSides) {
-  EXPECT_FLOAT_EQ(fallingSource(0.3f, kRainAsymmetry, glm::vec3(0.0f), glm::vec3(2.0f)).y, 2.0f);
-  // The phase function is one over the sphere.
-  double sum = 0.0;
-  constexpr int kSteps = 4000;
-  for (int i = 0; i < kSteps; ++i) {
-    const float cosine = -1.0f + 2.0f * (static_cast<float>(i) + 0.5f) / kSteps;
-    sum += fallingSource(cosine, kRainAsymmetry, glm::vec3(1.0f), glm::vec3(0.0f)).x * 4.0 * M_PI / kSteps;
-  }
-  EXPECT_NEAR(sum, 1.0, 1e-3);
-}
-
 }  // namespace
 }  // namespace welkin::law

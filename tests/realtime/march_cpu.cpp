@@ -7,6 +7,7 @@
 #include "welkin/atmosphere/sun.hpp"
 #include "welkin/base/parallel.hpp"
 #include "welkin/noise/textures.hpp"
+#include "welkin/realtime/falling.hpp"
 #include "welkin/realtime/frame_params.hpp"
 #include "welkin/noise/blue_noise.hpp"
 #include "welkin/realtime/march_params.hpp"
@@ -25,6 +26,7 @@ struct Sky {
   std::span<const PlacedGrid> grids;
   glm::dvec2 anchor{0.0};
   float dither = 0.0f;
+  std::vector<Vec4> segments;  // of rain, of one ray
 };
 
 FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky) {
@@ -54,6 +56,7 @@ FN Real skySunDepth(IN(Vec3), IN(Sky)) { return 0.0f; }
 FN Vec2 skyBelow(IN(Vec2), IN(Sky)) { return Vec2(0.0f); }
 FN AirShade skyAirShade(IN(Sky)) { return {Vec4(0.0f), Vec4(0.0f)}; }
 const int kRains = 1;
+FN Vec4 skyRainSegment(int k, IN(Sky) sky) { return sky.segments[static_cast<std::size_t>(k)]; }
 FN Vec2 skyRain(IN(Vec3) q, IN(Sky) sky) {
   Vec2 sum(0.0f);
   for (std::size_t i = 0; i < sky.rain.size(); ++i) {
@@ -69,6 +72,7 @@ FN int skySheetCount(IN(Sky) sky) { return static_cast<int>(sky.sheets.size()); 
 FN SheetParams skySheet(int i, IN(Sky) sky) { return sky.sheets[static_cast<std::size_t>(i)]; }
 
 #include "welkin/realtime/span.glsl"
+#include "welkin/realtime/rain_segments.glsl"
 #include "welkin/realtime/march.glsl"
 #include "welkin/realtime/ray.glsl"
 #include "welkin/base/law_end.inc"
@@ -152,6 +156,47 @@ void drawNoise(const Scene& scene, law::Sky& in, Textures& t) {
   in.nubisBase = t.nubisBase.view(), in.nubisDetail = t.nubisDetail.view(), in.curl = t.curl.view();
 }
 
+// Texels of one block of the picture of rain.
+glm::ivec2 rainBlock(const FrameParams& f) {
+  return rainPictureSize(int(f.size.x), int(f.size.y), 1) / glm::ivec2(law::kRainColumns, law::kRainRows);
+}
+
+// shaders/rain_segments.frag.glsl; the segments of a texel one after the other.
+std::vector<glm::vec4> rainPicture(law::Sky sky, const FrameParams& f, const law::MarchParams& march) {
+  const glm::ivec2 size = rainBlock(f);
+  std::vector<glm::vec4> picture;
+  sky.dither = 0.5f;
+  for (int y = 0; y < size.y; ++y)
+    for (int x = 0; x < size.x; ++x) {
+      const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / glm::vec2(size) * 2.0f - 1.0f;
+      const glm::vec3 dir = glm::normalize(law::cameraRay(ndc, f.camera));
+      for (int k = 0; k < law::kRainSegments; ++k) {
+        glm::vec4 segment = law::rainSegment(k, dir, march, sky);
+        for (int c = 0; c < 4; ++c) segment[c] = roundedToHalf(segment[c]);
+        picture.push_back(segment);
+      }
+    }
+  return picture;
+}
+
+// shaders/rain_lookup.glsl.
+std::vector<glm::vec4> segmentsAt(const std::vector<glm::vec4>& picture, const glm::vec2& uv, const FrameParams& f) {
+  std::vector<glm::vec4> found(law::kRainSegments);
+  if (picture.empty()) return found;
+  const glm::ivec2 size = rainBlock(f);
+  const glm::vec2 at = glm::clamp(uv * glm::vec2(size) - 0.5f, glm::vec2(0.0f), glm::vec2(size - 1));
+  const glm::ivec2 low(at), high = glm::min(low + 1, size - 1);
+  const glm::vec2 share = at - glm::vec2(low);
+  const auto texel = [&](int x, int y, int k) {
+    return picture[static_cast<std::size_t>((y * size.x + x) * law::kRainSegments + k)];
+  };
+  for (int k = 0; k < law::kRainSegments; ++k)
+    found[static_cast<std::size_t>(k)] =
+        glm::mix(glm::mix(texel(low.x, low.y, k), texel(high.x, low.y, k), share.x),
+                 glm::mix(texel(low.x, high.y, k), texel(high.x, high.y, k), share.x), share.y);
+  return found;
+}
+
 }  // namespace
 
 Image marchOnCpu(const Scene& scene, const Frame& frame, std::span<const PlacedGrid> grids) {
@@ -180,6 +225,7 @@ Image marchOnCpu(const Scene& scene, const Frame& frame, std::span<const PlacedG
   const law::MarchParams march =
       marchParams(scene, planet, sun, sky.light, pixel, frame.background == Background::skyAndGround, shells);
   const law::AtmosphereParams& air = sky.params.air;
+  const std::vector<glm::vec4> segments = rains(scene) ? rainPicture(in, f, march) : std::vector<glm::vec4>();
   Image image(frame.width, frame.height, 4);
   parallelFor(image.pixels.size() / 4, 64, [&](std::size_t begin, std::size_t end) {
     law::Sky own = in;
@@ -188,6 +234,7 @@ Image marchOnCpu(const Scene& scene, const Frame& frame, std::span<const PlacedG
       const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) * glm::vec2(f.size.z, f.size.w) * 2.0f - 1.0f;
       const glm::vec3 dir = glm::normalize(law::cameraRay(ndc, f.camera));
       own.dither = dither(static_cast<int>(x), static_cast<int>(y));
+      own.segments = segmentsAt(segments, ndc * 0.5f + 0.5f, f);
       glm::vec4 colour;
       float depth = 0.0f, samples = 0.0f;
       law::renderRay(dir, 1e8f, glm::vec3(0.5f), march, air, sky.air.transmittance.view(), sky.aerialInscatter.view(),

@@ -229,6 +229,27 @@ TEST(RainShafts, AreTheSameInCppAndGlsl) {
   EXPECT_GT(displayedPsnr(stage.draw(scene), marchOnCpu(scene, stage.frame(scene))), 45.0);
 }
 
+// Curtains that broken clouds light and shade, against the sun: samples of each ray's own showed as grain.
+TEST(RainShafts, DoNotDependOnTheJitter) {
+  Scene scene = rainy();
+  scene.precipitation.particles = 0;
+  scene.quality.lightVolume = true;
+  scene.layers[0].weather.coverage = 0.6f;
+  scene.layers[0].cloud.extinction = 1e-6f;
+  scene.sun.elevation = 0.5f;
+  scene.sun.azimuth = scene.camera.heading;
+  scene.camera.pitch = 0.05f;
+  Stage stage(48, 27);
+  const Image even = stage.draw(scene);
+  scene.quality.jitter = true;
+  const Image jittered = stage.draw(scene);
+  scene.precipitation.rate = 0.0f;
+  const Image dry = stage.draw(scene);
+  const double mean = statistics(even).mean;
+  EXPECT_GT(difference(even, dry), 0.1 * mean);
+  EXPECT_LT(difference(even, jittered), 5e-3 * mean);  // half floats
+}
+
 TEST(RainMap, TellsTheHostWhatFallsAndWhereItIsWet) {
   Stage stage(kWidth, kHeight);
   Scene scene = rainy();

@@ -86,11 +86,3 @@ FN Real tumbled(IN(Real) turn, IN(Real) phase) {
 FN Real streakOpacity(IN(Real) area, IN(Real) along, IN(Real) across) {
   return min(area / (1.5707963f * along * across), 0.95f);
 }
-
-// Light that what falls sends to the eye for each unit of opacity: sunlight of an irradiance of `sun`, by a phase function
-// of mean cosine g, and light from all sides of radiance `around`.
-FN Vec3 fallingSource(IN(Real) cosTheta, IN(Real) g, IN(Vec3) sun, IN(Vec3) around) {
-  Real g2 = g * g;
-  Real d = max(1.0f + g2 - 2.0f * g * cosTheta, 1e-4f);
-  return sun * (0.0795774715f * (1.0f - g2) / (d * sqrt(d))) + around;
-}

@@ -38,6 +38,7 @@ void FallingPass::compile(const std::string& clouds, bool lit) {
   };
   mapProgram_ = program("rain map", "welkin/realtime/shaders/rain_map.frag.glsl");
   lightProgram_ = program("rain light", "welkin/realtime/shaders/rain_light.frag.glsl");
+  segmentsProgram_ = program("rain segments", "welkin/realtime/shaders/rain_segments.frag.glsl");
   text_ = text;
 }
 
@@ -76,6 +77,31 @@ void FallingPass::drawMap(const FallingInputs& inputs, gl::Framebuffer& framebuf
     bind(lightProgram_, "uDiffuse", inputs.light->diffuse(), 2);
   }
   draw(lightProgram_, light_);
+}
+
+glm::ivec2 rainPictureSize(int width, int height, int marched) {
+  const int edge = std::max(law::kRainPixels, 2 * marched);
+  return glm::ivec2(law::kRainColumns, law::kRainRows) * ((glm::ivec2(width, height) + edge - 1) / edge);
+}
+
+void FallingPass::drawSegments(const FallingInputs& inputs, gl::Framebuffer& framebuffer,
+                               const gl::UniformBuffer& frame, const gl::Texture& picture) {
+  const gl::Texture* targets[] = {&picture};
+  framebuffer.target(targets);
+  const gl::Program& program = segmentsProgram_;
+  gl_.UseProgram(program.id());
+  program.bindBlock("Frame", kFrameBlock);
+  program.bindBlock("Layers", kLayersBlock);
+  program.bindBlock("March", kMarchBlock);
+  frame.bind(kFrameBlock);
+  inputs.layers.bind(kLayersBlock);
+  inputs.march.bind(kMarchBlock);
+  if (inputs.light) {
+    bind(program, "uSun", inputs.light->sun(), 0);
+    bind(program, "uDiffuse", inputs.light->diffuse(), 1);
+  }
+  inputs.bindClouds(program, 2);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 // Cells, and room for what stands in them.

@@ -1,6 +1,6 @@
 #pragma once
-// The passes of rain and snow near the eye: a map of what falls at the ground, the light there, and the drops and
-// flakes themselves (drops.hpp). Like gl/objects.hpp, for .cpp files only.
+// The passes of rain and snow: what the march sees of them far away, and near the eye a map of what falls at the
+// ground, the light there, and the drops and flakes themselves (drops.hpp). Like gl/objects.hpp, for .cpp files only.
 #include <functional>
 #include <map>
 #include <string>
@@ -12,6 +12,10 @@
 #include "welkin/realtime/light_volume.hpp"
 
 namespace welkin::realtime {
+
+// Of the picture of rain along a view's rays, for a target of such a size of which a ray is marched in every
+// `marched` pixels.
+glm::ivec2 rainPictureSize(int width, int height, int marched);
 
 inline constexpr float kRainMapEdge = 8000.0f;  // m
 
@@ -55,6 +59,11 @@ class FallingPass {
   // Over the frame's target, which is left bound. Returns how many drops were drawn.
   int drawDrops(const Drops& drops);
 
+  // The view's rain and snow along its rays, for the march (rain_segments.glsl): into `picture`, with the frame's block
+  // `frame`.
+  void drawSegments(const FallingInputs& inputs, gl::Framebuffer& framebuffer, const gl::UniformBuffer& frame,
+                    const gl::Texture& picture);
+
   const gl::Texture& map() const { return map_; }
   // All of it, with their names for a table of memory.
   std::vector<std::pair<const char*, const gl::Texture*>> textures() const;
@@ -68,7 +77,7 @@ class FallingPass {
 
   const gl::Api& gl_;
   gl::Texture map_, light_, cells_, places_, lights_, sizes_;
-  gl::Program mapProgram_, lightProgram_;
+  gl::Program mapProgram_, lightProgram_, segmentsProgram_;
   std::map<std::string, gl::Program> placePrograms_, dropsPrograms_;  // by the defines of the variant
   gl::UniformBuffer buffer_;
   std::string text_;

@@ -13,5 +13,6 @@ namespace welkin::law {
 #include "welkin/realtime/host_params.glsl"
 #include "welkin/realtime/lightning.glsl"
 #include "welkin/realtime/drops.glsl"
+#include "welkin/realtime/rain_picture.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

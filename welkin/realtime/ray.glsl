@@ -3,8 +3,8 @@
 //   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky), AirShade skyAirShade(Sky)
 // whether there is a light volume, its optical depth toward the sun, the light without direction that comes down below
 // the clouds, and the shade along the ray (air_shade.glsl, to be included before); and
-//   const int kRains, Vec2 skyRain(Vec3 q, Sky)
-// whether anything falls, and (its extinction in 1/m, the share of that which is snow).
+//   const int kRains, Vec4 skyRainSegment(int k, Sky)
+// whether anything falls, and rainSegment() of the ray (rain_segments.glsl), from the view's picture of them.
 
 // Light that a sheet sends along the ray: the sun's, and without direction that of the sky and of the ground, of which what
 // it lets through stands in for what lies behind it.
@@ -73,55 +73,43 @@ FN Real sheetsThrough(IN(Vec3) q, IN(Real) slant, IN(MarchParams) m, IN(Sky) sky
   return exp(-depth);
 }
 
+// From where to where a ray is in air through which anything falls.
+FN Vec2 wayInRain(IN(Vec3) dir, IN(MarchParams) m) {
+  Vec2 way = crossings(dir, m.rain.x, m.planet);
+  return Vec2(max(way.x, 0.0f), max(way.y, 0.0f));
+}
+
 // Rain and snow along a ray: light toward the eye over its opacity, opacity, and the distance that most of it has.
 struct RainSeen {
   Vec3 source;
   Real opacity, depth;
 };
 
-const int kRainSteps = 48;
-const float kRainReach = 80000.0f;  // m
-
-FN RainSeen rainSeen(IN(Vec3) dir, IN(Real) limit, IN(Real) jitter, IN(Vec3) sunlight, IN(MarchParams) m, IN(Sky) sky) {
-  Vec2 shell = crossings(dir, m.rain.x, m.planet);
-  Real start = Real(0.0f);
-  Real end = shell.y;
-  if (m.planet.altitude > m.rain.x) start = shell.x;
-  Mask meets = both(end > 0.0f, start > -0.5f);
-  end = min(min(end, limit), kRainReach);
-  Real way = select(meets, max(end - start, 0.0f), Real(0.0f));
-  Real cosTheta = dot(dir, Vec3(m.sun.x, m.sun.y, m.sun.z));
-  Vec3 light = Vec3(0.0f);
+FN RainSeen rainSeen(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunlight, IN(MarchParams) m, IN(Sky) sky) {
+  Vec2 way = wayInRain(dir, m);
+  Real end = min(way.y, limit);
+  Vec3 weights = Vec3(0.0f);
   Real through = 1.0f;
   Real depth = 0.0f;
-  for (int i = 0; i < kRainSteps; ++i) {
-    // Steps grow with the distance, each with a place of its own in it, so that errors cancel.
-    Real at = (float(i) + fract(jitter + 0.61803399f * float(i))) / float(kRainSteps);
-    Real t = start + way * at * at;
-    Real stride = way * ((2.0f * float(i) + 1.0f) / float(kRainSteps * kRainSteps));
-    Vec3 q = cloudSpace(dir * t, m.planet);
-    Vec2 found = skyRain(q, sky);
-    Real sigma = found.x * (1.0f - m.rain.y * (1.0f - smoothstep(kRainFade * m.rain.z, m.rain.z, t)));
-    sigma = select(q.z < m.rain.x, sigma, Real(0.0f));
-    Real kept = exp(-sigma * stride);
-    Real weight = through * (1.0f - kept);
-    if (noneOf(weight > 1e-4f)) continue;
-    Real share = Real(m.rain.w);
-    Vec3 around = xyz(m.shadedAir);
-    if (kLightVolume != 0) {
-      Vec2 below = skyBelow(Vec2(q.x, q.y), sky);
-      around = (sunlight * below.x + xyz(m.ambientSky) * (3.14159265f * below.y)) * xyz(m.shadedAir);
-      share = exp(-kReduced * skySunDepth(q, sky));
-    }
-    light = light + fallingSource(cosTheta, mix(Real(kRainAsymmetry), Real(kSnowAsymmetry), found.y), sunlight * share,
-                                  around) * weight;
-    depth += weight * t;
+  for (int k = 0; k < kRainSegments; ++k) {
+    float from = rainStart(k), to = rainStart(k + 1);
+    if (noneOf(end > from)) break;
+    Real a = max(way.x, Real(from));
+    Real on = max(min(end, Real(to)) - a, 0.0f);
+    Vec4 segment = skyRainSegment(k, sky);
+    Real kept = exp(-segment.w * (on * (1.0f / (to - from))));
+    Real opacity = through * (1.0f - kept);
+    weights = weights + Vec3(segment.x, segment.y, segment.z) * (opacity / max(segment.w, 1e-7f));
+    depth += opacity * (a + 0.5f * on);
     through *= kept;
   }
   RainSeen r;
   r.opacity = 1.0f - through;
   Real some = 1.0f / max(r.opacity, 1e-6f);
-  r.source = light * some;
+  Vec3 around = xyz(m.shadedAir);
+  if (kLightVolume != 0)
+    around = (sunlight * (weights.y * some) + xyz(m.ambientSky) * (3.14159265f * (weights.z * some))) * around;
+  r.source = sunlight * (weights.x * some) + around;
   r.depth = depth * some;
   return r;
 }
@@ -205,7 +193,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   }
 
   if (kRains != 0) {
-    RainSeen rain = rainSeen(dir, min(limit, select(ground, tGround, Real(1e9f))), jitter.x, sunLow, m, sky);
+    RainSeen rain = rainSeen(dir, min(limit, select(ground, tGround, Real(1e9f))), sunLow, m, sky);
     airBefore(dir, rain.depth, shaded, air, aerialInscatter, aerialTransmittance, inscatter, through);
     Vec3 light = (rain.source * through + inscatter) * rain.opacity;
     Mask front = either(rain.depth < r.depth, toMask(m.planet.altitude < m.bottom));

@@ -78,7 +78,7 @@ TextureName nameOf(const gl::Texture& t) { return {t.id(), t.width(), t.height()
 
 struct View::State {
   int width = 0, height = 0, interleave = 0;
-  gl::Texture marched, marchedDepth, samples, airShade;
+  gl::Texture marched, marchedDepth, samples, airShade, rainSegments;
   std::array<gl::Texture, 2> history;
   int current = 0;             // history that was written last
   int frames = 0;              // since the last reset
@@ -259,6 +259,11 @@ struct Renderer::State {
   void lightPass(View::State& view, const Frame& frame, const glm::dvec3& position, const Drift& drift,
                  const FrameParams& params);
   void airShadePass(View::State& view, const Frame& frame);
+  void rainPass(View::State& view, const Frame& frame);
+  FallingInputs fallingInputs() const {
+    return {layersBuffer, marchBuffer, [this](const gl::Program& program, int unit) { bindClouds(program, unit); },
+            sky.transmittance(), light};
+  }
   void marchPass(View::State& view, const Frame& frame);
   void resolvePass(View::State& view, const gl::Program& program);
   void lightningOf(const glm::dvec2& place, double time);
@@ -606,11 +611,7 @@ void Renderer::State::lightPass(View::State& view, const Frame& frame, const glm
     block.volume = light->params();
     layersBuffer.upload(&block, sizeof block);
   }
-  if (rains(scene))
-    falling.drawMap(
-        {layersBuffer, marchBuffer, [this](const gl::Program& program, int unit) { bindClouds(program, unit); },
-         sky.transmittance(), light},
-        framebuffer, driftOffset({drift.windSpeed, drift.windFrom, 1.0}));
+  if (rains(scene)) falling.drawMap(fallingInputs(), framebuffer, driftOffset({drift.windSpeed, drift.windFrom, 1.0}));
   host = hostParams(block.air, light ? &block.volume : nullptr, m, sky.light());
   host.rainScale = rains(scene) ? 1.0f / kRainMapEdge : 0.0f;
   host.freezing = freezingLevel(scene.precipitation);
@@ -663,6 +664,19 @@ void Renderer::State::airShadePass(View::State& view, const Frame& frame) {
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void Renderer::State::rainPass(View::State& view, const Frame& frame) {
+  if (!rains(scene)) {
+    view.rainSegments = gl::Texture();
+    return;
+  }
+  const int marched = view.interleave * ((frame.width + view.width - 1) / view.width);
+  const glm::ivec2 size = rainPictureSize(frame.width, frame.height, marched);
+  if (view.rainSegments.width() != size.x || view.rainSegments.height() != size.y)
+    view.rainSegments = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba16F, size.x, size.y, 0, gl::Filter::linear,
+                                    gl::Addressing::clamp, nullptr);
+  falling.drawSegments(fallingInputs(), framebuffer, frameBuffer, view.rainSegments);
+}
+
 void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   std::vector<const gl::Texture*> targets{&view.marched, &view.marchedDepth};
   if (counting) targets.push_back(&view.samples);
@@ -685,6 +699,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   bind(march, "uSkyView", sky.skyView(), unit++);
   bind(march, "uBlueNoise", blueNoise, unit++);
   bindHostDepth(march, frame, unit++);
+  if (view.rainSegments) bind(march, "uRainSegments", view.rainSegments, unit++);
   if (light) {
     bind(march, "uSun", light->sun(), unit++);
     bind(march, "uDiffuse", light->diffuse(), unit++);
@@ -963,10 +978,14 @@ void Renderer::render(View& view, const Frame& frame) {
 
   s.airShadePass(v, frame);
   s.timers.mark("air shade");
+  s.rainPass(v, frame);
+  s.timers.mark("rain");
   s.marchPass(v, frame);
   s.timers.mark("march");
   const bool average = s.scene.quality.averageHistory && history != History::none;
-  s.resolvePass(v, history == History::begun ? s.resolveFirstRound : average ? s.resolveAveraged : s.resolve);
+  s.resolvePass(v, v.frames > 0 && v.frames < turns && history != History::none ? s.resolveFirstRound
+                   : average                                                    ? s.resolveAveraged
+                                                                                : s.resolve);
   s.timers.mark("resolve");
   s.compositePass(v, frame, params);
   s.timers.mark("composite");
@@ -1040,6 +1059,7 @@ std::vector<MemoryRow> Renderer::memory(const View& view) const {
   add("view: march depth", view.state_->marchedDepth);
   add("view: samples", view.state_->samples);
   add("view: shade in the air", view.state_->airShade);
+  add("view: rain along the rays", view.state_->rainSegments);
   add("view: history a", view.state_->history[0]);
   add("view: history b", view.state_->history[1]);
   return rows;

@@ -1,6 +1,7 @@
 // Where drops and flakes stand in the picture and what they look like, a texel each, so that it is worked out once and
 // not for every corner. Variants: PANORAMA, and FLAKES where there are any.
 #include "welkin/base/law.glsl"
+#include "welkin/light/phase.glsl"
 #include "welkin/noise/hash.glsl"
 #include "welkin/precipitation/precipitation.glsl"
 #include "welkin/realtime/drops.glsl"
@@ -80,8 +81,9 @@ void main() {
   if (along > 0.5 * uTarget.x || max(beyond.x, beyond.y) > 2.0 * along) return;
   oPlace = vec4(middle, (moved > 1e-3 ? way / moved : vec2(0.0, 1.0)) * along);
   oSize = vec2(across_ / along, 0.5 * (a.z + b.z));
-  vec3 source = fallingSource(dot(p, uDrops.sun.xyz) / distance_, kind.flake == 1 ? kSnowAsymmetry : kRainAsymmetry,
-                              texelFetch(uRainLight, ivec2(0), 0).rgb, texelFetch(uRainLight, ivec2(1, 0), 0).rgb);
+  float phase = phaseHenyeyGreenstein(dot(p, uDrops.sun.xyz) / distance_,
+                                      kind.flake == 1 ? kSnowAsymmetry : kRainAsymmetry);
+  vec3 source = texelFetch(uRainLight, ivec2(0), 0).rgb * phase + texelFetch(uRainLight, ivec2(1, 0), 0).rgb;
   oLight = vec4(uOptions.z > 2.5 ? vec3(0.0) : source * (lit * uDrops.sun.w),
                 share * streakOpacity(shownArea * pixels * pixels, along, across_));
 }

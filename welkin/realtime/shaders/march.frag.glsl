@@ -19,6 +19,7 @@ uniform sampler3D uDiffuse;
 uniform sampler2D uHostDepth;
 uniform sampler2D uBlueNoise;
 uniform sampler2D uAirShade;
+uniform sampler2D uRainSegments;
 
 #ifdef LIGHT_VOLUME
 const int kLightVolume = 1;
@@ -30,17 +31,6 @@ AirShade skyAirShade(Sky sky) { return AirShade(vec4(0.0), vec4(0.0)); }
 float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolume, uSun); }
 int skySheetCount(Sky sky) { return SHEET_COUNT; }
 SheetParams skySheet(int i, Sky sky) { return uSheet[i]; }
-
-#ifdef SKY_RAIN
-const int kRains = 1;
-vec2 skyRain(vec3 q, Sky sky) {
-  vec3 found = skyFalling(q, sky);
-  return vec2(found.y, found.z / max(found.y, 1e-12));
-}
-#else
-const int kRains = 0;
-vec2 skyRain(vec3 q, Sky sky) { return vec2(0.0); }
-#endif
 
 vec2 skyBelow(vec2 p, Sky sky) { return lookupBelow(p, uVolume, uDiffuse); }
 
@@ -64,7 +54,13 @@ float skyClearance(vec3 q, vec3 way, Sky sky) {
 #else
 #include "welkin/realtime/march.glsl"
 #endif
-#include "welkin/realtime/drops.glsl"
+#include "welkin/realtime/shaders/rain_lookup.glsl"
+#ifdef SKY_RAIN
+const int kRains = 1;
+#else
+const int kRains = 0;
+#endif
+vec4 skyRainSegment(int k, Sky sky) { return lookupRainSegment(k, sky.uv, uRainSegments); }
 #include "welkin/realtime/ray.glsl"
 
 layout(std140) uniform March { MarchParams uMarch; };
@@ -96,6 +92,7 @@ void main() {
                   fract(0.5 + 0.61803399 * round_));
   Sky sky;
   sky.dither = blueNoise(pixel, ivec2(47, 13), round_ * uOptions.y);
+  sky.uv = uv;
 #ifdef LIGHT_VOLUME
   sky.airShade = lookupAirShade(uv, uAirShade);
 #endif

@@ -15,6 +15,13 @@ layout(location = 0) out vec4 oColour;
 // as long as the sky stays the same.
 const float kMargin = 0.25, kMarginMoved = 0.25;
 
+// Histories below this enum are kept in that range: four pixels of many are no range for the mean of more.
+#ifdef FIRST_ROUND
+const float kClipped = 1.5;
+#else
+const float kClipped = 2.5;
+#endif
+
 vec4 historyAt(vec2 uv) {
 #ifndef AVERAGE
   return textureLod(uHistory, uv, 0.0);
@@ -42,15 +49,20 @@ vec3 shownAt(vec4 p) {
 }
 
 #ifdef FIRST_ROUND
-// The frame in which a pixel is marched for the first time: the inverse of the order in frame_params.cpp.
+// The order in which a block's pixels are marched (frame_params.cpp), and the frame in which a pixel is for the first time,
+// by the grid as it stands now.
+ivec2 placeOf2(int turn) { return ivec2(turn == 1 || turn == 2, turn & 1); }
 int turnOf2(ivec2 p) { return p.x == p.y ? p.x : 3 - p.x; }
 int turnOf(ivec2 pixel) {
-  ivec2 p = pixel % int(uTiming.w);
-  return uTiming.w > 3.0 ? 4 * turnOf2(p & 1) + turnOf2(p >> 1) : turnOf2(p);
+  int now = int(uTiming.x), edge = int(uTiming.w);
+  ivec2 first = ivec2(uOffset.xy) - (edge > 3 ? placeOf2(now >> 2) + 2 * placeOf2(now & 3) : placeOf2(now));
+  ivec2 p = (pixel - first + edge) % edge;
+  return edge > 3 ? 4 * turnOf2(p & 1) + turnOf2(p >> 1) : turnOf2(p);
 }
 
 // A pixel that no frame has marched yet: the mean of those round it that have been, by a bell as wide as they are apart.
-vec4 filled(ivec2 pixel) {
+// `back`: from a pixel to where the history shows the same, in pixels.
+vec4 filled(ivec2 pixel, vec2 back) {
   int now = int(uTiming.x), reach = int(uTiming.w) - 1;
   float narrow = 2.0 * (uTiming.x + 1.0) / (uTiming.w * uTiming.w);
   vec4 sum = vec4(0.0);
@@ -61,7 +73,8 @@ vec4 filled(ivec2 pixel) {
       int turn = turnOf(max(at, 0));
       if (turn > now || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(uSize.xy)))) continue;
       float weight = exp(-narrow * float(x * x + y * y));
-      sum += weight * (turn == now ? texelFetch(uMarched, at / int(uTiming.w), 0) : texelFetch(uHistory, at, 0));
+      sum += weight * (turn == now ? texelFetch(uMarched, at / int(uTiming.w), 0)
+                                   : textureLod(uHistory, (vec2(at) + 0.5 + back) * uSize.zw, 0.0));
       weights += weight;
     }
   return sum / weights;
@@ -75,12 +88,6 @@ void main() {
   // Where the march target stands for this pixel: its texel centres lie at the marched pixels.
   vec2 place = (pixel - uOffset.xy) / uTiming.w;
   vec4 fresh = marched ? texelFetch(uMarched, block, 0) : textureLod(uMarched, (place + 0.5) * uMarchSize.zw, 0.0);
-#ifdef FIRST_ROUND
-  ivec2 at = ivec2(pixel);
-  if (marched) oColour = fresh;
-  else if (turnOf(at) < int(uTiming.x)) oColour = texelFetch(uHistory, at, 0);
-  else oColour = filled(at);
-#else
   // The four marched pixels around: what they show of is as far away as the nearest of them, and what they do not show
   // has gone.
   ivec2 corner = ivec2(floor(place)), last = ivec2(uMarchSize.xy) - 1;
@@ -96,10 +103,18 @@ void main() {
   vec2 uv = (pixel + 0.5) * uSize.zw;
   vec3 dir = normalize(rayAt(uv * 2.0 - 1.0));
   vec3 shown = shownAt(vec4(dir * (depth * 4.0) - uWind.xyz, 1.0));
+#ifdef FIRST_ROUND
+  if (uTiming.z > 3.5) shown = vec3(uv, 1.0);
+#endif
   vec2 before = shown.xy;
   bool known = uTiming.z > 0.5 && shown.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
+#ifdef FIRST_ROUND
+  ivec2 own = ivec2(pixel);
+  vec4 old = turnOf(own) < int(uTiming.x) ? historyAt(before) : filled(own, before * uSize.xy - pixel - 0.5);
+#else
   vec4 old = historyAt(before);
-  if (uTiming.z < 2.5) {
+#endif
+  if (uTiming.z < kClipped) {
     float moved = length((shownAt(vec4(dir, 0.0)).xy - before) * uSize.xy);
     vec4 margin = (kMargin + (uTiming.z > 1.5 ? kMarginMoved / max(moved, 1e-3) : 0.0)) * (high - low);
     // Over a host's picture, opacity that it gains comes with the new light, and what it loses takes its own along.
@@ -111,5 +126,4 @@ void main() {
   }
   vec4 kept = known ? old : fresh;
   oColour = marched ? mix(kept, fresh, known ? uTiming.y : 1.0) : kept;
-#endif
 }

@@ -18,6 +18,7 @@
 struct Sky {
   float dither;
   AirShade airShade;  // of a ray of the march
+  vec2 uv;            // its place in the picture
 };
 
 layout(std140) uniform Layers {
