@@ -122,7 +122,10 @@ void main() {
     if (uOptions.z != 1.0)
       old.rgb = gain > 0.0 ? old.rgb + fresh.rgb * (gain / max(1.0 - fresh.a, gain))
                            : old.rgb * ((1.0 - left) / max(1.0 - old.a, 1e-4));
-    old = vec4(clamp(old.rgb, low.rgb - margin.rgb, high.rgb + margin.rgb), left);
+    // Toward the middle of the range, all channels alike: each on its own would change the hue.
+    vec3 middle = 0.5 * (low.rgb + high.rgb), away = old.rgb - middle;
+    vec3 far = abs(away) / max(0.5 * (high.rgb - low.rgb) + margin.rgb, vec3(1e-6));
+    old = vec4(middle + away / max(max(far.x, max(far.y, far.z)), 1.0), left);
   }
   vec4 kept = known ? old : fresh;
   oColour = marched ? mix(kept, fresh, known ? uTiming.y : 1.0) : kept;
