@@ -250,6 +250,33 @@ TEST(RainShafts, DoNotDependOnTheJitter) {
   EXPECT_LT(difference(even, jittered), 5e-3 * mean);  // half floats
 }
 
+// Coarse histories of a flight toward rain that the sun shines through: what is old may be held to the range of what is
+// new, but not to another hue.
+TEST(RainShafts, TurnNoCloudPinkInFlight) {
+  Scene scene = rainy();
+  scene.precipitation.particles = 0;
+  scene.quality = qualityPreset(QualityPreset::high);
+  scene.quality.historyScale = 4;
+  scene.layers[0].weather.coverage = 0.5f;
+  scene.sun.elevation = 0.5f;
+  scene.camera.pitch = 0.1f;
+  makeSmall(scene);
+  Stage stage(160, 90);
+  stage.sky->setScene(scene);
+  double pink = 0.0;
+  for (int i = 0; i < 48; ++i) {
+    scene.camera.position.y = 1.2 * i;
+    const Image shown = displayed(stage.draw(stage.view, stage.frame(scene)));
+    for (int y = 0; y < shown.height; ++y)
+      for (int x = 0; x < shown.width; ++x) {
+        const float* c = shown.at(x, y);
+        pink = std::max(pink, double(std::min(c[0], c[2]) - c[1]));
+      }
+  }
+  std::printf("pink: %.4f\n", pink);
+  EXPECT_LT(pink, 0.02);
+}
+
 TEST(RainMap, TellsTheHostWhatFallsAndWhereItIsWet) {
   Stage stage(kWidth, kHeight);
   Scene scene = rainy();
