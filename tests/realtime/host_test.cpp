@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "tests/realtime/stage.hpp"
 
@@ -112,6 +113,42 @@ TEST(HostDepth, ThinThingsStandBeforeTheClouds) {
   };
   EXPECT_EQ(greatest(10.0), 0.0);
   EXPECT_GT(greatest(100e3), 0.1) << "control: a wire behind the clouds";
+}
+
+// A closed layer behind a wall whose edge moves on by a pixel a frame: the clouds go on up to the edge, though texels
+// of history and march there saw the wall, or still do.
+TEST(HostDepth, CloudsReachTheEdgesOfWhatStandsBeforeThem) {
+  Stage stage(kWidth, kHeight);
+  Scene scene = overcast();
+  scene.layers[0].weather.coverage = 1.0f;
+  scene.camera.pitch = 0.5f;
+  const auto atEdges = [&](int historyScale, int interleave) {
+    scene.quality.historyScale = historyScale;
+    scene.quality.interleave = interleave;
+    stage.sky->setScene(scene);
+    View view;
+    std::vector<double> found;
+    for (int i = 0; i < 20; ++i) {
+      Frame frame = stage.frame(scene);
+      frame.position.y += 1.5 * i;
+      setDepth(frame, Depth::infinite, DepthRange::zeroToOne);
+      frame.background = Background::host;
+      const int edge = kWidth / 2 - i;
+      std::vector<float> texels(static_cast<std::size_t>(kWidth) * kHeight, 0.0f);
+      for (std::size_t t = 0; t < texels.size(); ++t)
+        if (static_cast<int>(t % kWidth) < edge) texels[t] = depthOf(400.0, Depth::infinite);
+      const gl::Texture depth = stage.depth(texels);
+      frame.depthTexture = depth.id();
+      found.push_back(opacity(stage.draw(view, frame, glm::vec4(1.0f)), edge, edge + 1));
+    }
+    return found;
+  };
+  const std::vector<double> whole = atEdges(1, 1), coarse = atEdges(2, 4);
+  double least = 1.0;
+  for (std::size_t i = 0; i < whole.size(); ++i) least = std::min(least, coarse[i] / whole[i]);
+  std::printf("least at the edge: %.3f of a full march\n", least);
+  // 0.81; without regard to the edges in the composite 0.62, in the resolve too 0.00.
+  EXPECT_GT(least, 0.72);
 }
 
 TEST(HostAxes, BothUpsGiveTheSamePicture) {

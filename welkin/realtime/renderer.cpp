@@ -265,7 +265,7 @@ struct Renderer::State {
             sky.transmittance(), light};
   }
   void marchPass(View::State& view, const Frame& frame);
-  void resolvePass(View::State& view, const gl::Program& program);
+  void resolvePass(View::State& view, const Frame& frame, const gl::Program& program);
   void lightningOf(const glm::dvec2& place, double time);
   void compositePass(const View::State& view, const Frame& frame, const FrameParams& params);
   void dropsPass(const Frame& frame, const FrameParams& view, const glm::dvec3& position);
@@ -720,7 +720,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   rays = static_cast<double>(counts.size());
 }
 
-void Renderer::State::resolvePass(View::State& view, const gl::Program& program) {
+void Renderer::State::resolvePass(View::State& view, const Frame& frame, const gl::Program& program) {
   const gl::Texture* targets[] = {&view.history[static_cast<std::size_t>(1 - view.current)]};
   framebuffer.target(targets);
   gl.UseProgram(program.id());
@@ -729,6 +729,7 @@ void Renderer::State::resolvePass(View::State& view, const gl::Program& program)
   bind(program, "uMarched", view.marched, 0);
   bind(program, "uMarchedDepth", view.marchedDepth, 1);
   bind(program, "uHistory", view.history[static_cast<std::size_t>(view.current)], 2);
+  bindHostDepth(program, frame, 3);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
   view.current = 1 - view.current;
 }
@@ -983,9 +984,10 @@ void Renderer::render(View& view, const Frame& frame) {
   s.marchPass(v, frame);
   s.timers.mark("march");
   const bool average = s.scene.quality.averageHistory && history != History::none;
-  s.resolvePass(v, v.frames > 0 && v.frames < turns && history != History::none ? s.resolveFirstRound
-                   : average                                                    ? s.resolveAveraged
-                                                                                : s.resolve);
+  s.resolvePass(v, frame,
+                v.frames > 0 && v.frames < turns && history != History::none ? s.resolveFirstRound
+                : average                                                    ? s.resolveAveraged
+                                                                             : s.resolve);
   s.timers.mark("resolve");
   s.compositePass(v, frame, params);
   s.timers.mark("composite");

@@ -29,10 +29,28 @@ const float kBefore = 0.2, kNear = 100.0;
 in vec2 vUv;
 layout(location = 0) out vec4 oColour;
 
+#ifdef DEPTH
+// The history between its pixels, of those that tell what stands before this one of the target; `clouds`: their distance.
+vec4 historyBefore(vec2 uv, float own, float clouds) {
+  vec2 place = uv * uSize.xy - 0.5, share = fract(place);
+  ivec2 corner = ivec2(floor(place)), last = ivec2(uSize.xy) - 1;
+  vec4 sum = vec4(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 side = ivec2(i & 1, i >> 1), at = clamp(corner + side, ivec2(0), last);
+    vec2 part = mix(1.0 - share, share, vec2(side));
+    float there = hostAlongView(uHostDepth, (vec2(at) + 0.5) * uSize.zw + uLock.xy);
+    vec4 cloud = texelFetch(uHistory, at, 0);
+    float weight = part.x * part.y * (tellsOf(own, there, cloud.a, clouds) ? 1.0 : 1e-3);
+    sum += weight * cloud;
+    weights += weight;
+  }
+  return sum / weights;
+}
+#endif
+
 void main() {
   vec2 uv = vUv - uLock.xy;
-  vec4 cloud = textureLod(uHistory, uv, 0.0);
-  cloud.rgb *= uOptions.x;
   vec3 ray = rayAt(uv * 2.0 - 1.0);
 #ifdef DEPTH
   // The history is too coarse for what is thin: it mixes it with the clouds that stand behind.
@@ -40,8 +58,13 @@ void main() {
   float clouds = 1e9;
   for (int i = 0; i < 4; ++i)
     clouds = min(clouds, texelFetch(uMarchedDepth, clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last), 0).x);
-  if (hostDistance(uHostDepth, vUv, ray) < min(kBefore * 4.0 * clouds, kNear)) cloud = vec4(vec3(0.0), 1.0);
+  clouds *= 4.0;
+  vec4 cloud = historyBefore(uv, hostAlongView(uHostDepth, vUv), clouds);
+  if (hostDistance(uHostDepth, vUv, ray) < min(kBefore * clouds, kNear)) cloud = vec4(vec3(0.0), 1.0);
+#else
+  vec4 cloud = textureLod(uHistory, uv, 0.0);
 #endif
+  cloud.rgb *= uOptions.x;
   if (uOptions.z > 2.5) cloud = vec4(cloud.aaa, 0.0);
 #if defined(SKY) || defined(DISC) || defined(MOON) || defined(STARS)
   vec3 dir = normalize(ray), behind = vec3(0.0);

@@ -34,3 +34,10 @@ float hostDistance(sampler2D depth, vec2 uv, vec3 ray) {
   float view = uDepthInfo.x < 0.5 ? 1e8 : hostAlongView(depth, uv);
   return view < 1e8 ? view * length(ray) : 1e8;
 }
+
+// Whether a ray as far as the host's distance `there` tells what clouds stand before `here`: these are about the same, or
+// what it saw, which lets `left` of the light through, stands before both, at a distance of `clouds`.
+bool tellsOf(float here, float there, float left, float clouds) {
+  float near = min(here, there);
+  return max(here, there) < 2.0 * near || (left < 0.25 && clouds < near);
+}

@@ -7,15 +7,17 @@
 uniform sampler2D uMarched;
 uniform sampler2D uMarchedDepth;
 uniform sampler2D uHistory;
+uniform sampler2D uHostDepth;
 
 layout(location = 0) out vec4 oColour;
 
 // By which old pixels may leave the range of the new ones round them, in shares of it, for detail between these: by the
 // first, and by the second over what moves against the far in a frame, in pixels: nothing else can uncover or cover,
-// as long as the sky stays the same.
+// as long as the sky stays the same and the host's geometry has no edge there.
 const float kMargin = 0.25, kMarginMoved = 0.25;
 
-// Histories below this enum are kept in that range: four pixels of many are no range for the mean of more.
+// Histories below this enum are kept in that range. In the first round, except at edges of the host's geometry, it would
+// leave its own pattern: four pixels are no range for the mean of more.
 #ifdef FIRST_ROUND
 const float kClipped = 1.5;
 #else
@@ -31,6 +33,11 @@ vec4 historyAt(vec2 uv) {
     for (int x = -1; x <= 1; ++x) sum += textureLod(uHistory, uv + vec2(x, y) * uSize.zw, 0.0);
   return sum * (1.0 / 9.0);
 #endif
+}
+
+// Along the view, m, at a pixel of the history.
+float hostOf(vec2 pixel) {
+  return uDepthInfo.x < 0.5 ? 1e8 : hostAlongView(uHostDepth, (pixel + 0.5) * uSize.zw + uLock.xy);
 }
 
 // Of a direction in the panorama's axes.
@@ -87,18 +94,37 @@ void main() {
   bool marched = all(lessThan(abs(pixel - vec2(block) * uTiming.w - uOffset.xy), vec2(0.5)));
   // Where the march target stands for this pixel: its texel centres lie at the marched pixels.
   vec2 place = (pixel - uOffset.xy) / uTiming.w;
-  vec4 fresh = marched ? texelFetch(uMarched, block, 0) : textureLod(uMarched, (place + 0.5) * uMarchSize.zw, 0.0);
-  // The four marched pixels around: what they show of is as far away as the nearest of them, and what they do not show
-  // has gone.
+  // The four marched pixels around, of those where the host's picture is as far away as here: what they show of is as
+  // far away as the nearest of them, and what they do not show has gone.
   ivec2 corner = ivec2(floor(place)), last = ivec2(uMarchSize.xy) - 1;
-  vec4 low = fresh, high = fresh;
-  float depth = 1e9;
+  vec2 share = place - vec2(corner);
+  float own = hostOf(pixel), depth = 1e9, weights = 0.0;
+  vec4 fresh = vec4(0.0), low = vec4(1e9), high = vec4(-1e9);
+  bool edge = false;
   for (int i = 0; i < 4; ++i) {
-    ivec2 at = clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last);
+    ivec2 side = ivec2(i & 1, i >> 1), at = clamp(corner + side, ivec2(0), last);
+    vec2 part = mix(1.0 - share, share, vec2(side));
     vec4 colour = texelFetch(uMarched, at, 0);
-    low = min(low, colour);
-    high = max(high, colour);
-    depth = min(depth, texelFetch(uMarchedDepth, at, 0).x);
+    float weight = part.x * part.y + 1e-3;
+    float distance_ = texelFetch(uMarchedDepth, at, 0).x;
+    if (tellsOf(own, hostOf(vec2(at) * uTiming.w + uOffset.xy), colour.a, 4.0 * distance_)) {
+      low = min(low, colour);
+      high = max(high, colour);
+      depth = min(depth, distance_);
+    } else {
+      weight *= 1e-6;
+      edge = true;
+    }
+    // As far away as marched pixels may be, on every side.
+    vec2 beside = (i < 2 ? vec2(1.0, 0.0) : vec2(0.0, 1.0)) * (float(2 * (i & 1) - 1) * uTiming.w);
+    edge = edge || !tellsOf(own, hostOf(pixel + beside), colour.a, 4.0 * distance_);
+    fresh += weight * colour;
+    weights += weight;
+  }
+  fresh = marched ? texelFetch(uMarched, block, 0) : fresh / weights;
+  if (depth > 1e8) {
+    low = high = fresh;
+    depth = texelFetch(uMarchedDepth, clamp(corner, ivec2(0), last), 0).x;
   }
   vec2 uv = (pixel + 0.5) * uSize.zw;
   vec3 dir = normalize(rayAt(uv * 2.0 - 1.0));
@@ -109,14 +135,14 @@ void main() {
   vec2 before = shown.xy;
   bool known = uTiming.z > 0.5 && shown.z > 0.0 && all(greaterThan(before, vec2(0.0))) && all(lessThan(before, vec2(1.0)));
 #ifdef FIRST_ROUND
-  ivec2 own = ivec2(pixel);
-  vec4 old = turnOf(own) < int(uTiming.x) ? historyAt(before) : filled(own, before * uSize.xy - pixel - 0.5);
+  ivec2 at = ivec2(pixel);
+  vec4 old = turnOf(at) < int(uTiming.x) ? historyAt(before) : filled(at, before * uSize.xy - pixel - 0.5);
 #else
   vec4 old = historyAt(before);
 #endif
-  if (uTiming.z < kClipped) {
+  if (uTiming.z < (edge ? 2.5 : kClipped)) {
     float moved = length((shownAt(vec4(dir, 0.0)).xy - before) * uSize.xy);
-    vec4 margin = (kMargin + (uTiming.z > 1.5 ? kMarginMoved / max(moved, 1e-3) : 0.0)) * (high - low);
+    vec4 margin = (kMargin + (uTiming.z > 1.5 && !edge ? kMarginMoved / max(moved, 1e-3) : 0.0)) * (high - low);
     // Over a host's picture, opacity that it gains comes with the new light, and what it loses takes its own along.
     float left = clamp(old.a, low.a - margin.a, high.a + margin.a), gain = old.a - left;
     if (uOptions.z != 1.0)
