@@ -97,10 +97,10 @@ SkyLight belowSheets(const Scene& scene, SkyLight light, float sunHeight) {
   return light;
 }
 
-// Sunlight on its way through a cloud that has been turned aside but once or twice counts as light without direction,
-// by this share of an irradiance of 1 (isotropic: 1/4), since what the light volume's cells know of it is blurred:
-// fitted to the path tracer on bench/error.cpp's cumulus and stratocumulus and on altocumulus.
-constexpr float kBeam = 0.14f;
+// What light that is turned aside once sends toward the eye, as a share of an irradiance of 1: 1/4 in a medium that
+// scatters evenly, less since cells of the light volume are blurred; by FLIP on bench/error.cpp's cumulus and
+// stratocumulus.
+constexpr float kOnce = 0.2f;
 
 // Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
 // top: by eye, until it is fitted to a reference.
@@ -118,8 +118,11 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.sun = glm::vec4(sunDirection, l.powder);
   const float sunHeight = std::max(sunDirection.z, 0.0f);
   const SkyLight light = belowSheets(scene, clear, sunHeight);
-  m.ambientSky = glm::vec4(light.meanRadiance, l.ambient);
   const Veil veil = veilOf(scene);
+  // Level decks have the sky above them, single clouds as much of it beside them.
+  const glm::vec3 above = light.skyIrradiance / 3.14159265f;
+  m.skyAbove = glm::vec4(above, 0.0f);
+  m.ambientSky = glm::vec4(glm::mix(light.meanRadiance, above, veil.cover), l.ambient);
   const glm::vec3 direct = sunHeight * light.sunIrradiance;
   const glm::vec3 diffuse =
       (1.0f - veil.cover) * light.skyIrradiance + veil.cover * veil.through * (direct + light.skyIrradiance);
@@ -171,7 +174,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   float extinction = 0.75f * gridExtinction;
   for (const Layer& layer : scene.layers) extinction = std::max(extinction, 0.75f * layer.cloud.extinction);
   m.transportPath = std::min(0.86f / (0.14f * std::max(extinction, 1e-4f)), 300.0f);
-  m.beam = kBeam;
+  m.once = kOnce;
   m.octaves = l.octaves;
   if (l.phase == PhaseModel::droplets && !scene.layers.empty()) {
     const law::MiePhase mie = phaseOf(scene.layers.front().cloud);

@@ -3,7 +3,8 @@
 struct MarchParams {
   PlanetParams planet;
   vec4 sun;             // xyz: direction toward the sun, w: powder
-  vec4 ambientSky;      // mean radiance of the sky in kcd/m^2, w: ambient gain
+  vec4 ambientSky;      // radiance of the sky for the clouds in kcd/m^2, w: ambient gain
+  vec4 skyAbove;        // its mean by the cosine from the zenith: what clear sky sends to level ground over pi, kcd/m^2
   vec4 diffused;        // light that falls on the clouds, as isotropic radiance in kcd/m^2, w: share of it deep inside
   vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
   vec4 groundAlbedo;    // w: 1 when the ground is drawn
@@ -21,7 +22,7 @@ struct MarchParams {
   float nearReach;      // m, all near steps toward the sun where the light volume's cells are finest
   float lightRatio;  // each step toward the sun against the last
   float transportPath;  // m, on which light inside the clouds forgets its direction
-  float beam;           // share of the sun's light that reaches a place, counted as light without direction
+  float once;           // share of the sun's irradiance that light turned aside once sends back from where it is turned
   float skyBehind;      // 1 when the sky of the table stands behind the clouds, 0 for the host's picture
   vec4 rain;            // x: altitude above which none falls in m, y: share of its extinction that is drawn as particles
                         // as far as z in m, w: share of sunlight that the clouds leave it, without a light volume

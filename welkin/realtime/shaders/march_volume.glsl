@@ -24,7 +24,7 @@ float spacingAt(float t, MarchParams m) {
 vec3 groundUnder(vec2 p, vec3 sunLow, MarchParams m, Sky sky) {
   float direct = max(m.sun.z, 0.0) * exp(-kReduced * textureLod(uSun, placeBelow(p, uVolume), 0.0).x);
   vec2 below = skyBelow(p, sky);
-  vec3 falling = sunLow * (direct + below.x) + m.ambientSky.xyz * (3.14159265 * below.y);
+  vec3 falling = sunLow * (direct + below.x) + m.skyAbove.xyz * (3.14159265 * below.y);
   return groundRadiance(falling, m.groundAlbedo.xyz, below.y);
 }
 
@@ -33,7 +33,8 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
   RaySpan span = raySpan(dir, limit, m);
   float cosTheta = dot(dir, sun);
   float first = m.octaveGain * dropletPhase(cosTheta, m);
-  float broad = phaseHenyeyGreenstein(cosTheta, 0.6);
+  // Its part that has no direction is in the light that is turned aside.
+  float broad = phaseHenyeyGreenstein(cosTheta, 0.6) - phaseHenyeyGreenstein(-1.0, 0.6);
   vec3 ground = groundUnder(dir.xy * span.start, sunLow, m, sky);
   float inverseShell = 1.0 / (m.top - m.bottom);
 
@@ -115,7 +116,11 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
     float lump = 1.0 - exp(-kReduced * min(kLump, kLumpHeight / inverseShell) * found.x);
     float within = min(0.5 * (lightVolumeCoarseness(level, uVolume) - 1.0), 1.0);
     spread.x = max(spread.x, kLumpLight * within * lump * forward);
-    float turned = (spread.x + m.beam * forward) * 0.318309886;
+    // Light that has been turned aside once comes from that path too, on which it falls with the depth toward the sun.
+    float here = textureLod(uSun, lightVolumePlace(level, q, uVolume), 0.0).x;
+    float falls = kReduced * (textureLod(uSun, deeper, 0.0).x - here) * (m.transportPath / path);
+    float once = m.once * forward / max(1.0 + falls, 0.5);
+    float turned = (spread.x + once) * 0.318309886;
     vec3 source = sunlight * ((first * straight + broad * (forward - straight)) * powder + turned);
     source += m.ambientSky.xyz * (m.ambientSky.w * spread.y);
     source += ground * (m.ambientGround.w * (1.0 - spread.y));
