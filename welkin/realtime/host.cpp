@@ -79,7 +79,7 @@ law::HostParams hostParams(const law::AtmosphereParams& air, const law::LightVol
   if (volume) h.volume = *volume;
   h.hasVolume = volume ? 1.0f : 0.0f;
   h.planet = march.planet;
-  h.skyAbove = march.skyAbove;
+  h.skyAround = march.skyAround;
   h.clearSky = glm::vec4(light.skyIrradiance, 0.0f);
   h.shadedSky = march.skyIrradiance;
   h.shadedAir = march.shadedAir;

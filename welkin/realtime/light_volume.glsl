@@ -76,18 +76,9 @@ FN Vec3 placeBelow(IN(Vec2) p, IN(LightVolumeParams) v) {
 }
 
 // The light that comes down on what lies below the clouds there, without direction, per irradiance of the sun and per
-// radiance of the sky times pi. Of what falls on level ground from clouds at a height h, r^2 / (r^2 + h^2) comes from within r:
-// half is what is overhead, the other half is that of four places at 1.73 h.
+// radiance of the sky times pi. What lies below sees much of the sky: the coarsest level.
 FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) diffuse) {
-  float ring = 1.73f * max(v.bottom, 0.0f);
-  Vec2 around = Vec2(0.0f);
-  for (int i = 0; i < 5; ++i) {
-    float side = i < 2 ? ring : -ring;
-    if (i == 4) side = 0.0f;
-    Vec3 q = Vec3(p.x + (i % 2 == 0 ? side : 0.0f), p.y + (i % 2 == 0 ? 0.0f : side), v.bottom);
-    around = around + xy(sample3(diffuse, lightVolumePlace(lightVolumeLevel(q, 0.5, v), q, v))) * (i == 4 ? 1.0f : 0.25f);
-  }
-  return around;
+  return 2.0f * xy(sample3(diffuse, placeBelow(p, v)));
 }
 
 // Radiance of ground on which so much light falls from above, klx, when the share `open` of the light that it sends up does

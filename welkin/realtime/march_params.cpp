@@ -121,8 +121,8 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   const Veil veil = veilOf(scene);
   // Level decks have the sky above them, single clouds as much of it beside them.
   const glm::vec3 above = light.skyIrradiance / 3.14159265f;
-  m.skyAbove = glm::vec4(above, 0.0f);
   m.ambientSky = glm::vec4(glm::mix(light.meanRadiance, above, veil.cover), l.ambient);
+  m.skyAround = glm::vec4(light.meanRadiance, 0.0f);
   const glm::vec3 direct = sunHeight * light.sunIrradiance;
   const glm::vec3 diffuse =
       (1.0f - veil.cover) * light.skyIrradiance + veil.cover * veil.through * (direct + light.skyIrradiance);

@@ -4,7 +4,7 @@ struct MarchParams {
   PlanetParams planet;
   vec4 sun;             // xyz: direction toward the sun, w: powder
   vec4 ambientSky;      // radiance of the sky for the clouds in kcd/m^2, w: ambient gain
-  vec4 skyAbove;        // its mean by the cosine from the zenith: what clear sky sends to level ground over pi, kcd/m^2
+  vec4 skyAround;        // its mean radiance, for ground and air, kcd/m^2
   vec4 diffused;        // light that falls on the clouds, as isotropic radiance in kcd/m^2, w: share of it deep inside
   vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
   vec4 groundAlbedo;    // w: 1 when the ground is drawn

@@ -44,7 +44,7 @@ FN ShadedAir shadedAir(IN(Vec3) dir, IN(Real) distance, IN(Real) loss, IN(Vec3) 
       Vec3 d = dir * min(-log(1.0f - end * (0.25f + 0.5f * float(i))) / max(loss, 1e-7f), distance);
       below = below + 0.5f * skyBelow(Vec2(d.x, d.y), sky);
     }
-    s.radiance = (sunlight * below.x + xyz(m.skyAbove) * (3.14159265f * below.y)) * xyz(m.shadedAir);
+    s.radiance = (sunlight * below.x + xyz(m.skyAround) * (3.14159265f * below.y)) * xyz(m.shadedAir);
   }
   return s;
 }
@@ -108,7 +108,7 @@ FN RainSeen rainSeen(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunlight, IN(MarchPa
   Real some = 1.0f / max(r.opacity, 1e-6f);
   Vec3 around = xyz(m.shadedAir);
   if (kLightVolume != 0)
-    around = (sunlight * (weights.y * some) + xyz(m.skyAbove) * (3.14159265f * (weights.z * some))) * around;
+    around = (sunlight * (weights.y * some) + xyz(m.skyAround) * (3.14159265f * (weights.z * some))) * around;
   r.source = sunlight * (weights.x * some) + around;
   r.depth = depth * some;
   return r;
@@ -210,7 +210,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Real open = 1.0f;
   if (kLightVolume != 0) {
     Vec2 below = skyBelow(Vec2(dir.x * tGround, dir.y * tGround), sky);
-    diffuse = sunLow * below.x + xyz(m.skyAbove) * (3.14159265f * below.y);
+    diffuse = sunLow * below.x + xyz(m.skyAround) * (3.14159265f * below.y);
     open = below.y;
   }
   Vec3 surface = groundRadiance(lit * (cosSun * max(r.ground, 0.0f)) + diffuse, xyz(m.groundAlbedo), open);

@@ -75,7 +75,7 @@ vec3 sunAt(float altitude, vec3 d) {
 vec3 skyBelow(vec2 place, vec3 sunAbove) {
   if (uWelkin.hasVolume < 0.5) return uWelkin.shadedSky.xyz;
   vec2 below = lookupBelow(place, uWelkin.volume, uWelkinDiffuse);
-  return sunAbove * below.x + uWelkin.skyAbove.xyz * (3.14159265 * below.y);
+  return sunAbove * below.x + uWelkin.skyAround.xyz * (3.14159265 * below.y);
 }
 
 // The same on level ground, with what the clouds send back of the ground's light; `direct`: the sun's on it.

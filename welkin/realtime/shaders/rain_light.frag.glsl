@@ -20,7 +20,7 @@ void main() {
   vec3 q = vec3(0.0, 0.0, uMarch.planet.altitude), around = uMarch.shadedAir.xyz;
 #ifdef LIGHT_VOLUME
   vec2 below = lookupBelow(q.xy, uVolume, uDiffuse);
-  around *= sun * below.x + uMarch.skyAbove.xyz * (3.14159265 * below.y);
+  around *= sun * below.x + uMarch.skyAround.xyz * (3.14159265 * below.y);
   sun *= exp(-kReduced * lookupSunDepth(q, 0.0, uVolume, uSun));
 #else
   sun *= uMarch.rain.w;
