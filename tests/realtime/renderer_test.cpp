@@ -293,25 +293,30 @@ TEST(Temporal, TheFirstFramesHaveNoHoles) {
   }
 }
 
+// The last of so many frames of a camera that turns by 0.1 deg and walks by 1.5 m a frame, 3 deg and 45 m a second,
+// drawn from frame `first` on.
+Image lastOfWalk(Stage& stage, int interleave, int first, int frames) {
+  Scene scene = movingScene(interleave);
+  stage.sky->setScene(scene);
+  stage.view.reset();
+  Image image;
+  for (int i = first; i < frames; ++i) {
+    scene.camera.heading = 0.00175f * static_cast<float>(i);
+    scene.camera.position.y = 1.5 * i;
+    Frame frame = stage.frame(scene);
+    frame.time = i / 30.0;
+    image = stage.draw(stage.view, frame);
+  }
+  return image;
+}
+
 TEST(Temporal, TheFirstFramesOfAMovingCameraAreFilledIn) {
   Stage stage(128, 72);
-  const auto lastOf = [&](int interleave, int frames) {
-    Scene scene = movingScene(interleave);
-    stage.sky->setScene(scene);
-    stage.view.reset();
-    Image image;
-    for (int i = interleave > 1 ? 0 : frames - 1; i < frames; ++i) {
-      scene.camera.heading = 0.00175f * static_cast<float>(i);
-      scene.camera.position.y = 1.5 * i;
-      image = stage.draw(stage.view, stage.frame(scene));
-    }
-    return image;
-  };
   for (const int frames : {9, 13}) {
-    const Image full = lastOf(1, frames), early = lastOf(4, frames);
+    const Image full = lastOfWalk(stage, 1, frames - 1, frames), early = lastOfWalk(stage, 4, 0, frames);
     const double like = displayedPsnr(early, full);
     std::printf("moving, %2d frames: %.1f dB\n", frames, like);
-    // 30.9 and 31.9 dB; pixels that wait for their turn as they were in the first frame: 26.4 and 28.6.
+    // 30.2 and 31.1 dB; were pixels to wait for their turn as they were in the first frame, 4.5 and 3.3 less.
     EXPECT_GT(like, 30.0) << frames;
   }
 }
@@ -331,23 +336,11 @@ TEST(Temporal, ANewSkyIsSeenAtOnce) {
   EXPECT_GT(displayedPsnr(after, expected), 50.0);
 }
 
-// A camera that turns by 0.1 deg and walks by 1.5 m a frame: 3 deg and 45 m a second.
 TEST(Temporal, AMovingCameraStaysNearTheFullMarch) {
   Stage stage(160, 90);
   const auto lastFrame = [&](int interleave, bool forgets) {
-    Scene scene = movingScene(interleave);
-    stage.sky->setScene(scene);
-    stage.view.reset();
-    Image image;
-    const int frames = 24;
-    for (int i = interleave > 1 && !forgets ? 0 : frames - 1; i < frames; ++i) {
-      scene.camera.heading = 0.00175f * static_cast<float>(i);
-      scene.camera.position.y = 1.5 * i;
-      Frame frame = stage.frame(scene);
-      frame.time = i / 30.0;
-      image = stage.draw(stage.view, frame);
-    }
-    return image;
+    constexpr int kFrames = 24;
+    return lastOfWalk(stage, interleave, interleave > 1 && !forgets ? 0 : kFrames - 1, kFrames);
   };
   const Image full = lastFrame(1, false);
   const double two = displayedPsnr(lastFrame(2, false), full), four = displayedPsnr(lastFrame(4, false), full);

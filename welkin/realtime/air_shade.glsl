@@ -15,10 +15,13 @@ const float kShadeFirst = 500.0f;  // m, the first segment's end; the last one's
 
 // Altitude below which they do, m.
 FN float shadeAltitude(IN(float) bottom, IN(float) top) { return bottom + 0.15f * (top - bottom); }
-// From where to where the ray along the unit vector `dir` is below it.
-FN Vec2 wayInShade(IN(Vec3) dir, IN(float) bottom, IN(float) top, IN(PlanetParams) planet) {
-  Vec2 way = crossings(dir, shadeAltitude(bottom, top), planet);
+// From where to where the ray along the unit vector `dir` is below an altitude, m.
+FN Vec2 wayBelow(IN(Vec3) dir, IN(float) altitude, IN(PlanetParams) planet) {
+  Vec2 way = crossings(dir, altitude, planet);
   return Vec2(max(way.x, 0.0f), max(way.y, 0.0f));
+}
+FN Vec2 wayInShade(IN(Vec3) dir, IN(float) bottom, IN(float) top, IN(PlanetParams) planet) {
+  return wayBelow(dir, shadeAltitude(bottom, top), planet);
 }
 
 // What a metre of air takes of the light, from what `distance` m let through.

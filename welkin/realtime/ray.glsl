@@ -73,12 +73,6 @@ FN Real sheetsThrough(IN(Vec3) q, IN(Real) slant, IN(MarchParams) m, IN(Sky) sky
   return exp(-depth);
 }
 
-// From where to where a ray is in air through which anything falls.
-FN Vec2 wayInRain(IN(Vec3) dir, IN(MarchParams) m) {
-  Vec2 way = crossings(dir, m.rain.x, m.planet);
-  return Vec2(max(way.x, 0.0f), max(way.y, 0.0f));
-}
-
 // Rain and snow along a ray: light toward the eye over its opacity, opacity, and the distance that most of it has.
 struct RainSeen {
   Vec3 source;
@@ -86,7 +80,7 @@ struct RainSeen {
 };
 
 FN RainSeen rainSeen(IN(Vec3) dir, IN(Real) limit, IN(Vec3) sunlight, IN(MarchParams) m, IN(Sky) sky) {
-  Vec2 way = wayInRain(dir, m);
+  Vec2 way = wayBelow(dir, m.rain.x, m.planet);
   Real end = min(way.y, limit);
   Vec3 weights = Vec3(0.0f);
   Real through = 1.0f;

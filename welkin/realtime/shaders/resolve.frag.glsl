@@ -94,8 +94,8 @@ void main() {
   bool marched = all(lessThan(abs(pixel - vec2(block) * uTiming.w - uOffset.xy), vec2(0.5)));
   // Where the march target stands for this pixel: its texel centres lie at the marched pixels.
   vec2 place = (pixel - uOffset.xy) / uTiming.w;
-  // The four marched pixels around, of those where the host's picture is as far away as here: what they show of is as
-  // far away as the nearest of them, and what they do not show has gone.
+  // The four marched pixels around, as far as they tell what stands before the host's picture here: what they show of is
+  // as far away as the nearest of them, and what they do not show has gone.
   ivec2 corner = ivec2(floor(place)), last = ivec2(uMarchSize.xy) - 1;
   vec2 share = place - vec2(corner);
   float own = hostOf(pixel), depth = 1e9, weights = 0.0;
