@@ -54,6 +54,7 @@ FN Vec3 skyExtinction(IN(Vec3) q, IN(Real) footprint, IN(Mask) full, IN(Sky) sky
 const int kLightVolume = 0;
 FN Real skySunDepth(IN(Vec3), IN(Sky)) { return 0.0f; }
 FN Vec2 skyBelow(IN(Vec2), IN(Sky)) { return Vec2(0.0f); }
+FN Vec2 skyBelowAir(IN(Vec2), IN(Sky)) { return Vec2(0.0f); }
 FN AirShade skyAirShade(IN(Sky)) { return {Vec4(0.0f), Vec4(0.0f)}; }
 const int kRains = 1;
 FN Vec4 skyRainSegment(int k, IN(Sky) sky) { return sky.segments[static_cast<std::size_t>(k)]; }

@@ -74,7 +74,7 @@ void FallingPass::drawMap(const FallingInputs& inputs, gl::Framebuffer& framebuf
   bind(lightProgram_, "uTransmittance", inputs.transmittance, 0);
   if (inputs.light) {
     bind(lightProgram_, "uSun", inputs.light->sun(), 1);
-    bind(lightProgram_, "uDiffuse", inputs.light->diffuse(), 2);
+    bind(lightProgram_, "uBelow", inputs.light->below(), 2);
   }
   draw(lightProgram_, light_);
 }
@@ -98,7 +98,7 @@ void FallingPass::drawSegments(const FallingInputs& inputs, gl::Framebuffer& fra
   inputs.march.bind(kMarchBlock);
   if (inputs.light) {
     bind(program, "uSun", inputs.light->sun(), 0);
-    bind(program, "uDiffuse", inputs.light->diffuse(), 1);
+    bind(program, "uBelow", inputs.light->below(), 1);
   }
   inputs.bindClouds(program, 2);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);

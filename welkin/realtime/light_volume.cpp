@@ -50,9 +50,10 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     return gl::Texture(gl, gl::Texture::Kind::plane, format, extent_.texels, extent_.texels, 0, gl::Filter::linear,
                        gl::Addressing::clamp, nullptr);
   };
-  sheets_ = plane(gl::kRgba16F);
   sun_ = volume(gl::kR16F, extent_.levels);
   diffuse_ = volume(gl::kRg16F, extent_.levels);
+  below_ = gl::Texture(gl, gl::Texture::Kind::volume, gl::kRg16F, extent_.texels, extent_.texels, extent_.levels,
+                       gl::Filter::linear, gl::Addressing::clamp, nullptr);
   density_ = volume(gl::kRg16F, 1);
   steps_ = volume(gl::kR16F, 1);
   share_ = volume(gl::kR16F, 1);
@@ -67,6 +68,7 @@ LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
 std::vector<std::pair<const char*, const gl::Texture*>> LightVolume::textures() const {
   return {{"light volume: sun", &sun_},
           {"light volume: diffuse", &diffuse_},
+          {"light volume: below", &below_},
           {"light volume: density", &density_},
           {"light volume: sheets", &sheets_},
           {"light volume: steps", &steps_},
@@ -295,6 +297,9 @@ void LightVolume::sunUniform(const gl::Program& program) const {
 }
 
 void LightVolume::fillSheets(const gl::Program& program, gl::Framebuffer& framebuffer) {
+  if (sheets_.width() == 0)
+    sheets_ = gl::Texture(gl_, gl::Texture::Kind::plane, gl::kRgba16F, extent_.texels, extent_.texels, 0,
+                          gl::Filter::linear, gl::Addressing::clamp, nullptr);
   use(program);
   sunUniform(program);
   gl_.Uniform1f(program.uniform("uTop"), shell_.top);
@@ -401,16 +406,15 @@ void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count) {
   for (int s = job_->slice; s < job_->slice + count; ++s) passOn(columnPass_, "uBelow", framebuffer, s);
 }
 
-// The coarsest level alone is asked for it.
 void LightVolume::carryDown(gl::Framebuffer& framebuffer) {
   use(belowPass_);
   bind(belowPass_, "uDiffuse", light_, kUnits + 1);
   bind(belowPass_, "uFaces", faces_, kUnits + 2);
   for (int s = slices_ - 1; s >= 0; --s) passOn(belowPass_, "uAbove", framebuffer, s);
+  copy(0, below_, job_->level);
 }
 
 void LightVolume::publish(gl::Framebuffer& framebuffer) {
-  if (job_->level == extent_.levels - 1) carryDown(framebuffer);
   const gl::Texture* const from[] = {&steps_, &light_};
   const gl::Texture* const to[] = {&sun_, &diffuse_};
   for (std::size_t i = 0; i < 2; ++i)
@@ -418,6 +422,7 @@ void LightVolume::publish(gl::Framebuffer& framebuffer) {
       framebuffer.target({&from[i], 1}, s);
       copy(0, *to[i], job_->level * slices_ + s);
     }
+  carryDown(framebuffer);
   if (!job_->known) ++jumps_;
   Level& level = levels_[static_cast<std::size_t>(job_->level)];
   static_cast<Purpose&>(level) = *job_;

@@ -75,10 +75,29 @@ FN Vec3 placeBelow(IN(Vec2) p, IN(LightVolumeParams) v) {
               Real((last * v.slices + 0.5f) * v.inverseDepth));
 }
 
-// The light that comes down on what lies below the clouds there, without direction, per irradiance of the sun and per
-// radiance of the sky times pi. What lies below sees much of the sky: the coarsest level.
-FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) diffuse) {
-  return 2.0f * xy(sample3(diffuse, placeBelow(p, v)));
+// The light that comes down on what lies below the clouds, without direction, per irradiance of the sun and per radiance of
+// the sky times pi: x, y of a place in `below`, which holds what leaves the clouds downward, a slice for each level.
+FN Vec2 belowIn(IN(Vec3) place, IN(LightVolumeParams) v, IN(Sampler3) below) {
+  return 2.0f * xy(sample3(below, Vec3(place.x, place.y, (place.z + 0.5f) / float(v.levels.count))));
+}
+
+// On the ground. Of what falls on it from a height h, r^2 / (r^2 + h^2) comes from within r: half is from overhead, the
+// rest as at four places at 1.73 h.
+FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) below) {
+  float ring = 1.73f * max(v.bottom, 0.0f);
+  Vec2 sum = Vec2(0.0f);
+  for (int i = 0; i < 5; ++i) {
+    float x = i == 1 ? ring : (i == 2 ? -ring : 0.0f);
+    float y = i == 3 ? ring : (i == 4 ? -ring : 0.0f);
+    sum = sum + belowIn(weatherPlace(v.levels, Vec2(p.x + x, p.y + y), Real(0.5f)), v, below) * (i == 0 ? 0.5f : 0.125f);
+  }
+  return sum;
+}
+
+// In the air, which is lit from all sides: a mean over the wide squares of the coarsest level.
+FN Vec2 lookupBelowAir(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) below) {
+  Vec3 place = placeBelow(p, v);
+  return belowIn(Vec3(place.x, place.y, Real(float(v.levels.count) - 1.0f)), v, below);
 }
 
 // Radiance of ground on which so much light falls from above, klx, when the share `open` of the light that it sends up does

@@ -53,6 +53,7 @@ class LightVolume {
   QualityPreset preset() const { return preset_; }
   const gl::Texture& sun() const { return sun_; }          // optical depth toward the sun
   const gl::Texture& diffuse() const { return diffuse_; }  // light without direction
+  const gl::Texture& below() const { return below_; }      // what of it leaves the clouds downward, a slice a level
   // With what only its own passes use.
   std::vector<std::pair<const char*, const gl::Texture*>> textures() const;
 
@@ -103,11 +104,11 @@ class LightVolume {
 
   const gl::Api& gl_;
   QualityPreset preset_;
-  WeatherExtent extent_;       // squares and their texels
-  int slices_;                 // of a level, from the bottom of the clouds to their top
-  gl::Texture sun_, diffuse_;  // all levels
-  // Of the level that is being made: light_density, light_sheets, light_sun (whose last doubling ends in steps_),
-  // light_diffusion; light_faces and light_sides, a texel for a slice.
+  WeatherExtent extent_;               // squares and their texels
+  int slices_;                         // of a level, from the bottom of the clouds to their top
+  gl::Texture sun_, diffuse_, below_;  // all levels
+  // Of the level that is being made: light_density, light_sheets (where there are sheets), light_sun (whose last
+  // doubling ends in steps_), light_diffusion; light_faces and light_sides, a texel for a slice.
   gl::Texture density_, sheets_, steps_, share_, light_, faces_, sides_;
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
   gl::Program sunPass_, startPass_, diffusionPass_, columnPass_, belowPass_, facesPass_, sidesPass_;

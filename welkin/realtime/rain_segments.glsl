@@ -2,7 +2,7 @@
 // has more samples than the rays of the march could take, and none of its own, which would be grain. The reader supplies
 //   Vec2 skyRain(Vec3 q, Sky)
 // (extinction in 1/m of what falls, the share of that which is snow);
-//   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky)
+//   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelowAir(Vec2 p, Sky)
 // as for ray.glsl; rain_picture.glsl and drops.glsl come before.
 
 // Of a whole segment: optical depth (w), and that times how much of the sunlight it sends back along the ray in 1/sr (x)
@@ -23,7 +23,7 @@ FN Vec4 rainSegment(int k, IN(Vec3) dir, IN(MarchParams) m, IN(Sky) sky) {
     Vec2 below = Vec2(0.0f);
     if (kLightVolume != 0) {
       share = exp(-kReduced * skySunDepth(q, sky));
-      below = skyBelow(Vec2(q.x, q.y), sky);
+      below = skyBelowAir(Vec2(q.x, q.y), sky);
     }
     Real phase = phaseHenyeyGreenstein(cosTheta, mix(Real(kRainAsymmetry), Real(kSnowAsymmetry), found.y));
     sum = sum + Vec4(phase * share, below.x, below.y, Real(1.0f)) * depth;

@@ -1,6 +1,6 @@
 // What one ray of the picture shows: clouds, sheets and ground, with the air in between; not the sky behind. The
 // reader supplies skySheetCount(Sky) and skySheet(int, Sky) besides what the march asks for, and
-//   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky), AirShade skyAirShade(Sky)
+//   const int kLightVolume, Real skySunDepth(Vec3 q, Sky), Vec2 skyBelow(Vec2 p, Sky), Vec2 skyBelowAir(Vec2 p, Sky), AirShade skyAirShade(Sky)
 // whether there is a light volume, its optical depth toward the sun, the light without direction that comes down below
 // the clouds, and the shade along the ray (air_shade.glsl, to be included before); and
 //   const int kRains, Vec4 skyRainSegment(int k, Sky)
@@ -42,7 +42,7 @@ FN ShadedAir shadedAir(IN(Vec3) dir, IN(Real) distance, IN(Real) loss, IN(Vec3) 
     Vec2 below = Vec2(0.0f);
     for (int i = 0; i < 2; ++i) {
       Vec3 d = dir * min(-log(1.0f - end * (0.25f + 0.5f * float(i))) / max(loss, 1e-7f), distance);
-      below = below + 0.5f * skyBelow(Vec2(d.x, d.y), sky);
+      below = below + 0.5f * skyBelowAir(Vec2(d.x, d.y), sky);
     }
     s.radiance = (sunlight * below.x + xyz(m.skyAround) * (3.14159265f * below.y)) * xyz(m.shadedAir);
   }

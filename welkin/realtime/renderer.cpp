@@ -647,7 +647,7 @@ void Renderer::State::airShadePass(View::State& view, const Frame& frame) {
   const int width = (frame.width + kAirShadePixels - 1) / kAirShadePixels;
   const int height = 2 * ((frame.height + kAirShadePixels - 1) / kAirShadePixels);
   if (view.airShade.width() != width || view.airShade.height() != height)
-    view.airShade = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba16F, width, height, 0, gl::Filter::linear,
+    view.airShade = gl::Texture(gl, gl::Texture::Kind::plane, gl::kRgba8, width, height, 0, gl::Filter::linear,
                                 gl::Addressing::clamp, nullptr);
   const gl::Texture* targets[] = {&view.airShade};
   framebuffer.target(targets);
@@ -703,6 +703,7 @@ void Renderer::State::marchPass(View::State& view, const Frame& frame) {
   if (light) {
     bind(march, "uSun", light->sun(), unit++);
     bind(march, "uDiffuse", light->diffuse(), unit++);
+    bind(march, "uBelow", light->below(), unit++);
     bind(march, "uAirShade", view.airShade, unit++);
     if (weather) bind(march, "uBounds", weather->bounds(), unit++);
   }
@@ -882,7 +883,7 @@ void Renderer::bindHost(const View& view, unsigned program, const HostBindings& 
                                   {"uWelkinInscatter", GL_TEXTURE_3D, &s.sky.aerialInscatter()},
                                   {"uWelkinThrough", GL_TEXTURE_3D, &s.sky.aerialTransmittance()},
                                   {"uWelkinSunDepth", GL_TEXTURE_3D, s.light ? &s.light->sun() : nullptr},
-                                  {"uWelkinDiffuse", GL_TEXTURE_3D, s.light ? &s.light->diffuse() : nullptr},
+                                  {"uWelkinBelow", GL_TEXTURE_3D, s.light ? &s.light->below() : nullptr},
                                   {"uWelkinAirShade", GL_TEXTURE_2D, s.light ? &v.airShade : nullptr},
                                   {"uWelkinRain", GL_TEXTURE_2D, rains(s.scene) ? &s.falling.map() : nullptr}};
   realtime::bindHost(s.gl, program, bindings.firstUnit, bindings.uniformBlock, v.hostBuffer, samplers);

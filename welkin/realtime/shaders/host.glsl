@@ -29,7 +29,7 @@ uniform sampler2D uWelkinTransmittance;
 uniform sampler3D uWelkinInscatter;
 uniform sampler3D uWelkinThrough;
 uniform sampler3D uWelkinSunDepth;
-uniform sampler3D uWelkinDiffuse;
+uniform sampler3D uWelkinBelow;
 uniform sampler2D uWelkinAirShade;
 uniform sampler2D uWelkinRain;
 
@@ -71,18 +71,16 @@ vec3 sunAt(float altitude, vec3 d) {
                                   dot(uWelkin.air.sunDirection.xyz, normal));
 }
 
-// Light without direction under the clouds over a place, klx.
-vec3 skyBelow(vec2 place, vec3 sunAbove) {
-  if (uWelkin.hasVolume < 0.5) return uWelkin.shadedSky.xyz;
-  vec2 below = lookupBelow(place, uWelkin.volume, uWelkinDiffuse);
+// Light without direction, klx, of which clouds leave so much (lookupBelow()).
+vec3 skyThrough(vec2 below, vec3 sunAbove) {
   return sunAbove * below.x + uWelkin.skyAround.xyz * (3.14159265 * below.y);
 }
 
 // The same on level ground, with what the clouds send back of the ground's light; `direct`: the sun's on it.
 vec3 skyOnGround(vec2 place, vec3 sunAbove, vec3 direct) {
-  vec3 sky = skyBelow(place, sunAbove);
-  if (uWelkin.hasVolume < 0.5) return sky;
-  vec3 back = uWelkin.groundAlbedo.xyz * (1.0 - lookupBelow(place, uWelkin.volume, uWelkinDiffuse).y);
+  if (uWelkin.hasVolume < 0.5) return uWelkin.shadedSky.xyz;
+  vec2 below = lookupBelow(place, uWelkin.volume, uWelkinBelow);
+  vec3 sky = skyThrough(below, sunAbove), back = uWelkin.groundAlbedo.xyz * (1.0 - below.y);
   return sky + (direct + sky) * back / (1.0 - back);
 }
 
@@ -103,7 +101,8 @@ vec3 shadedInscatter(vec3 dir, float distance_, vec3 inscatter, vec3 through) {
   vec3 light = vec3(0.0);
   for (int i = 0; i < 2; ++i) {  // where equal shares of the light come from
     float t = -log(1.0 - end * (0.25 + 0.5 * float(i))) / max(loss, 1e-7);
-    light += 0.5 * skyBelow(dir.xy * min(t, distance_), sunAbove);
+    vec2 place = dir.xy * min(t, distance_);
+    light += 0.5 * skyThrough(lookupBelowAir(place, uWelkin.volume, uWelkinBelow), sunAbove);
   }
   vec2 way = wayInShade(dir, uWelkin.bottom, uWelkin.top, uWelkin.planet);
   float dark = shadeBefore(lookupAirShade(pictureAt(dir), uWelkinAirShade), distance_, loss, way);

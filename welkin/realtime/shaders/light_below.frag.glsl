@@ -1,6 +1,6 @@
 // Light volume, at the end: clear cells hold half the flux that comes down from the cloud above them, so that the lowest
-// slice tells what lies below the clouds how much that is. Out of a cell's middle the light passes half of its depth and
-// the cloud's surface (exchange() in light_volume.glsl).
+// slice tells what lies below the clouds how much that is (lookupBelow() in light_volume.glsl). Out of a cell's middle the
+// light passes half of its depth and the cloud's surface (exchange()).
 #include "welkin/realtime/shaders/light_level.glsl"
 
 uniform sampler3D uDiffuse;

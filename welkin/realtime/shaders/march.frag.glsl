@@ -16,6 +16,7 @@ uniform sampler3D uAerialTransmittance;
 uniform sampler2D uSkyView;
 uniform sampler3D uSun;
 uniform sampler3D uDiffuse;
+uniform sampler3D uBelow;
 uniform sampler2D uHostDepth;
 uniform sampler2D uBlueNoise;
 uniform sampler2D uAirShade;
@@ -32,7 +33,8 @@ float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolum
 int skySheetCount(Sky sky) { return SHEET_COUNT; }
 SheetParams skySheet(int i, Sky sky) { return uSheet[i]; }
 
-vec2 skyBelow(vec2 p, Sky sky) { return lookupBelow(p, uVolume, uDiffuse); }
+vec2 skyBelow(vec2 p, Sky sky) { return lookupBelow(p, uVolume, uBelow); }
+vec2 skyBelowAir(vec2 p, Sky sky) { return lookupBelowAir(p, uVolume, uBelow); }
 
 #ifdef LIGHTNING
 #include "welkin/realtime/lightning.glsl"

@@ -9,7 +9,7 @@
 layout(std140) uniform March { MarchParams uMarch; };
 uniform sampler2D uTransmittance;
 uniform sampler3D uSun;
-uniform sampler3D uDiffuse;
+uniform sampler3D uBelow;
 
 layout(location = 0) out vec4 oLight;
 
@@ -19,7 +19,7 @@ void main() {
                                       dot(uMarch.sun.xyz, uMarch.planet.up.xyz));
   vec3 q = vec3(0.0, 0.0, uMarch.planet.altitude), around = uMarch.shadedAir.xyz;
 #ifdef LIGHT_VOLUME
-  vec2 below = lookupBelow(q.xy, uVolume, uDiffuse);
+  vec2 below = lookupBelowAir(q.xy, uVolume, uBelow);
   around *= sun * below.x + uMarch.skyAround.xyz * (3.14159265 * below.y);
   sun *= exp(-kReduced * lookupSunDepth(q, 0.0, uVolume, uSun));
 #else

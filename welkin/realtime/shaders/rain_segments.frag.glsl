@@ -9,7 +9,7 @@
 
 layout(std140) uniform March { MarchParams uMarch; };
 uniform sampler3D uSun;
-uniform sampler3D uDiffuse;
+uniform sampler3D uBelow;
 
 #ifdef LIGHT_VOLUME
 const int kLightVolume = 1;
@@ -17,7 +17,7 @@ const int kLightVolume = 1;
 const int kLightVolume = 0;
 #endif
 float skySunDepth(vec3 q, Sky sky) { return lookupSunDepth(q, sky.dither, uVolume, uSun); }
-vec2 skyBelow(vec2 p, Sky sky) { return lookupBelow(p, uVolume, uDiffuse); }
+vec2 skyBelowAir(vec2 p, Sky sky) { return lookupBelowAir(p, uVolume, uBelow); }
 vec2 skyRain(vec3 q, Sky sky) {
   vec3 found = skyFalling(q, sky);
   return vec2(found.y, found.z / max(found.y, 1e-12));
