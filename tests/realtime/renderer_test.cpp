@@ -421,10 +421,41 @@ TEST(Temporal, TurningKeepsThePictureSharp) {
     const double pitching = psnrInMotion(stage, scene, {.pitch = pixels * pixel});
     const double turning = psnrInMotion(stage, scene, {.heading = pixels * pixel});
     std::printf("%.2f pixels a frame: pitching %.1f dB, turning %.1f dB\n", pixels, pitching, turning);
-    // Measured 31.9 to 33.2; with the history's grid held to the screen 29.0 to 33.0, pitching at most 30.5.
-    EXPECT_GT(pitching, 31.5) << pixels;
-    EXPECT_GT(turning, 31.5) << pixels;
+    // Measured 32.1 to 34.2; with the history's grid held to the screen 29.0 to 33.0, pitching at most 30.5.
+    EXPECT_GT(pitching, 31.8) << pixels;
+    EXPECT_GT(turning, 31.8) << pixels;
   }
+}
+
+// Decks thinner than a pixel, far away: the pixels of two rounds stand side by side, and a comb along them would show
+// that they are shifted.
+TEST(Temporal, FlightDrawsNoCombAlongFarDecks) {
+  Stage stage(320, 48);
+  Scene scene;
+  scene.layers[0].weather.population = Population::uniform;
+  scene.layers[0].weather.coverage = 0.6f;
+  scene.layers[0].weather.cellSize = 12000.0f;
+  scene.layers[0].cloud.thickness = 400.0f;
+  scene.layers[0].profile.erosion = scene.layers[0].profile.detail = scene.layers[0].profile.fineDetail = 0.0f;
+  scene.sun.elevation = 0.5f;
+  scene.camera.position.z = 400.0;
+  scene.camera.pitch = 0.02f;
+  scene.camera.fov = 0.5f;
+  scene.quality.interleave = 4;
+  stage.sky->setScene(scene);
+  stage.view.reset();
+  double mean = 0.0;
+  for (int i = 0; i < 96; ++i) {
+    scene.camera.position.y += 0.8;
+    const Image moving = stage.draw(stage.view, stage.frame(scene));
+    if (i >= 32) mean += roughness(moving) / 64.0;
+  }
+  View apart;
+  Image still;
+  for (int i = 0; i < 64; ++i) still = stage.draw(apart, stage.frame(scene));
+  std::printf("roughness in flight %.4f, at rest %.4f\n", mean, roughness(still));
+  // Measured 2.4 times, 3.6 times with the whole shift, 1.7 with none.
+  EXPECT_LT(mean, 3.0 * roughness(still));
 }
 
 // Out of a cloud and past others: what they uncover is not painted with what they were.

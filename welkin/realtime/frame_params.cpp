@@ -28,6 +28,8 @@ float behindClouds(const Frame& frame) {
   return frame.depthTexture != 0 ? 2.0f : 1.0f;
 }
 
+constexpr float kMovingShift = 0.4f;  // of the shift inside the pixel, where the picture moves
+
 double fraction(double x) { return x - std::floor(x); }
 
 }  // namespace
@@ -105,6 +107,10 @@ void setHistory(FrameParams& params, const FrameParams* last, const glm::dvec3& 
   const bool sameKind =
       last && last->camera.forward.w == params.camera.forward.w && last->camera.angles == params.camera.angles;
   params.timing.z = sameKind ? static_cast<float>(history) : 0.0f;
+  // A picture that moves holds samples of two rounds side by side, and the shift between them is a comb along the thin
+  // level edges of far clouds.
+  if (history == History::moved || history == History::changed)
+    params.offset.z *= kMovingShift, params.offset.w *= kMovingShift;
   params.wind = glm::vec4(glm::vec3(glm::dvec3(drifted, 0.0)), params.wind.w);
   if (!last) return;
   // A position relative to this eye, made relative to the last one, then projected as it was then.

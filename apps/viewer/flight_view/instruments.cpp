@@ -184,7 +184,9 @@ void lever(ImDrawList* list, const ImVec2& low, const ImVec2& high, double share
   list->AddRectFilled({low.x, foot - static_cast<float>(std::clamp(share, 0.0, 1.0)) * (foot - low.y)}, {high.x, foot},
                       colour, 2.0f);
   list->AddRect(low, {high.x, foot}, kRim, 2.0f);
-  list->AddText(ImGui::GetFont(), size, {0.5f * (low.x + high.x - extent.x), foot + 0.1f * size}, kDim, name);
+  const ImVec2 at(0.5f * (low.x + high.x - extent.x), foot + 0.1f * size);
+  list->AddText(ImGui::GetFont(), size, {at.x + 1.0f, at.y + 1.0f}, kFace, name);  // it may stand before a cloud
+  list->AddText(ImGui::GetFont(), size, at, kWhite, name);
 }
 
 void banner(ImDrawList* list, const ImVec2& centre, float size, const std::string& words, ImU32 colour) {
