@@ -36,8 +36,8 @@ gl::Program lightPass(const gl::Api& gl, const std::string& name) {
 LightVolume::LightVolume(const gl::Api& gl, QualityPreset preset)
     : gl_(gl), preset_(preset), sunPass_(lightPass(gl, "light_sun")), startPass_(lightPass(gl, "light_start")),
       diffusionPass_(lightPass(gl, "light_diffusion")), columnPass_(lightPass(gl, "light_column")),
-      belowPass_(lightPass(gl, "light_below")), facesPass_(lightPass(gl, "light_faces")),
-      sidesPass_(lightPass(gl, "light_sides")), block_(gl) {
+      belowPass_(lightPass(gl, "light_below")), groundPass_(lightPass(gl, "light_ground")),
+      facesPass_(lightPass(gl, "light_faces")), sidesPass_(lightPass(gl, "light_sides")), block_(gl) {
   const bool small = preset == QualityPreset::low || preset == QualityPreset::medium;
   extent_ = {small ? 64 : 120, small ? 3 : 4, 12000.0, small ? 4.0 : 2.6};
   slices_ = small ? 19 : 30;
@@ -154,6 +154,12 @@ law::LightVolumeParams LightVolume::params() const {
 
 glm::vec4 LightVolume::square(const glm::dvec2& centre, int level, float w) const {
   return {glm::vec2(centre - inAir_), static_cast<float>(extent_.edge(level)), w};
+}
+
+// The next coarser level's; w: its number, 0 when there is none.
+glm::vec4 LightVolume::coarser(int level) const {
+  if (level == extent_.levels - 1) return {0.0f, 0.0f, 1.0f, 0.0f};
+  return square(levels_[static_cast<std::size_t>(level) + 1].centre, level + 1, static_cast<float>(level + 1));
 }
 
 // The next level in turn, from the coarsest to the finest and round again, so that none waits for ever.
@@ -331,12 +337,10 @@ void LightVolume::fillSun(const glm::vec4& sheetHeights, gl::Framebuffer& frameb
 void LightVolume::start(gl::Framebuffer& framebuffer, int count) {
   const int level = job_->level;
   const Level& has = levels_[static_cast<std::size_t>(level)];
-  const bool coarsest = level == extent_.levels - 1;
   use(startPass_);
   bind(startPass_, "uDiffuse", diffuse_, kUnits + 1);
   const glm::vec4 before = square(has.centre, level, job_->known ? 1.0f : 0.0f);
-  const glm::vec4 coarser =
-      coarsest ? glm::vec4(0, 0, 1, 0) : square(levels_[static_cast<std::size_t>(level) + 1].centre, level + 1, 1.0f);
+  const glm::vec4 coarser = this->coarser(level);
   gl_.Uniform4f(startPass_.uniform("uBefore"), before.x, before.y, before.z, before.w);
   gl_.Uniform4f(startPass_.uniform("uCoarser"), coarser.x, coarser.y, coarser.z, coarser.w);
   gl_.Uniform1i(startPass_.uniform("uFirst"), level * slices_);
@@ -406,11 +410,23 @@ void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count) {
   for (int s = job_->slice; s < job_->slice + count; ++s) passOn(columnPass_, "uBelow", framebuffer, s);
 }
 
-void LightVolume::carryDown(gl::Framebuffer& framebuffer) {
+void LightVolume::lightBelow(gl::Framebuffer& framebuffer) {
+  const auto draw = [&](const gl::Program& program, const gl::Texture& plane) {
+    const gl::Texture* const targets[] = {&plane};
+    framebuffer.target(targets);
+    slice(program, 0);
+    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  };
   use(belowPass_);
   bind(belowPass_, "uDiffuse", light_, kUnits + 1);
   bind(belowPass_, "uFaces", faces_, kUnits + 2);
-  for (int s = slices_ - 1; s >= 0; --s) passOn(belowPass_, "uAbove", framebuffer, s);
+  draw(belowPass_, lightSlice_[0]);
+  use(groundPass_);
+  bind(groundPass_, "uOverhead", lightSlice_[0], kUnits + 1);
+  bind(groundPass_, "uGround", below_, kUnits + 2);
+  const glm::vec4 coarser = this->coarser(job_->level);
+  gl_.Uniform4f(groundPass_.uniform("uCoarser"), coarser.x, coarser.y, coarser.z, coarser.w);
+  draw(groundPass_, lightSlice_[1]);
   copy(0, below_, job_->level);
 }
 
@@ -422,7 +438,7 @@ void LightVolume::publish(gl::Framebuffer& framebuffer) {
       framebuffer.target({&from[i], 1}, s);
       copy(0, *to[i], job_->level * slices_ + s);
     }
-  carryDown(framebuffer);
+  lightBelow(framebuffer);
   if (!job_->known) ++jumps_;
   Level& level = levels_[static_cast<std::size_t>(job_->level)];
   static_cast<Purpose&>(level) = *job_;

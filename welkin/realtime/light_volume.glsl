@@ -76,22 +76,14 @@ FN Vec3 placeBelow(IN(Vec2) p, IN(LightVolumeParams) v) {
 }
 
 // The light that comes down on what lies below the clouds, without direction, per irradiance of the sun and per radiance of
-// the sky times pi: x, y of a place in `below`, which holds what leaves the clouds downward, a slice for each level.
+// the sky times pi: x, y of a place in `below` (shaders/light_ground.frag.glsl), a slice for each level.
 FN Vec2 belowIn(IN(Vec3) place, IN(LightVolumeParams) v, IN(Sampler3) below) {
   return 2.0f * xy(sample3(below, Vec3(place.x, place.y, (place.z + 0.5f) / float(v.levels.count))));
 }
 
-// On the ground. Of what falls on it from a height h, r^2 / (r^2 + h^2) comes from within r: half is from overhead, the
-// rest as at four places at 1.73 h.
+// On the ground.
 FN Vec2 lookupBelow(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) below) {
-  float ring = 1.73f * max(v.bottom, 0.0f);
-  Vec2 sum = Vec2(0.0f);
-  for (int i = 0; i < 5; ++i) {
-    float x = i == 1 ? ring : (i == 2 ? -ring : 0.0f);
-    float y = i == 3 ? ring : (i == 4 ? -ring : 0.0f);
-    sum = sum + belowIn(weatherPlace(v.levels, Vec2(p.x + x, p.y + y), Real(0.5f)), v, below) * (i == 0 ? 0.5f : 0.125f);
-  }
-  return sum;
+  return belowIn(weatherPlace(v.levels, p, Real(0.5f)), v, below);
 }
 
 // In the air, which is lit from all sides: a mean over the wide squares of the coarsest level.

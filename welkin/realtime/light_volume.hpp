@@ -53,7 +53,7 @@ class LightVolume {
   QualityPreset preset() const { return preset_; }
   const gl::Texture& sun() const { return sun_; }          // optical depth toward the sun
   const gl::Texture& diffuse() const { return diffuse_; }  // light without direction
-  const gl::Texture& below() const { return below_; }      // what of it leaves the clouds downward, a slice a level
+  const gl::Texture& below() const { return below_; }      // what of it comes down below the clouds, a slice a level
   // With what only its own passes use.
   std::vector<std::pair<const char*, const gl::Texture*>> textures() const;
 
@@ -93,7 +93,7 @@ class LightVolume {
   void diffuseDown(gl::Framebuffer& framebuffer, int count);
   void passOn(const gl::Program& program, const char* before, gl::Framebuffer& framebuffer, int s);
   void diffuseUp(gl::Framebuffer& framebuffer, int count);
-  void carryDown(gl::Framebuffer& framebuffer);
+  void lightBelow(gl::Framebuffer& framebuffer);
   void publish(gl::Framebuffer& framebuffer);
   void use(const gl::Program& program);
   void sunUniform(const gl::Program& program) const;
@@ -101,6 +101,7 @@ class LightVolume {
   void bind(const gl::Program& program, const char* name, const gl::Texture& texture, int unit) const;
   void copy(int target, const gl::Texture& to, int slice) const;
   glm::vec4 square(const glm::dvec2& centre, int level, float w) const;
+  glm::vec4 coarser(int level) const;
 
   const gl::Api& gl_;
   QualityPreset preset_;
@@ -111,7 +112,7 @@ class LightVolume {
   // doubling ends in steps_), light_diffusion; light_faces and light_sides, a texel for a slice.
   gl::Texture density_, sheets_, steps_, share_, light_, faces_, sides_;
   std::array<gl::Texture, 2> scalarSlice_, lightSlice_;
-  gl::Program sunPass_, startPass_, diffusionPass_, columnPass_, belowPass_, facesPass_, sidesPass_;
+  gl::Program sunPass_, startPass_, diffusionPass_, columnPass_, belowPass_, groundPass_, facesPass_, sidesPass_;
   gl::UniformBuffer block_;
   std::vector<Level> levels_;
   std::optional<Job> job_;

@@ -3,7 +3,7 @@
 
 uniform sampler3D uDiffuse;
 uniform vec4 uBefore;  // the level before it moved, xy: centre relative to the anchor, z: edge, m; w: 0 when there is none
-uniform vec4 uCoarser; // the same of the coarser level
+uniform vec4 uCoarser; // the same of the coarser level, w: its number
 uniform int uFirst;    // first slice of the level; that of the coarser one follows it
 
 in vec2 vUv;
