@@ -80,6 +80,7 @@ law::HostParams hostParams(const law::AtmosphereParams& air, const law::LightVol
   h.hasVolume = volume ? 1.0f : 0.0f;
   h.planet = march.planet;
   h.skyAround = march.skyAround;
+  h.skyOpen = march.skyOpen;
   h.clearSky = glm::vec4(light.skyIrradiance, 0.0f);
   h.shadedSky = march.skyIrradiance;
   h.shadedAir = march.shadedAir;

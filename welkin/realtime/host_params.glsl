@@ -6,7 +6,8 @@ struct HostParams {
   PlanetParams planet;
   vec4 clip0, clip1, clip3;  // rows of the view's clip transform of such positions
   vec4 depthPlace;           // from picture coordinates to texels of the cloud depth: xy scale, zw offset
-  vec4 skyAround;             // mean radiance of the sky, kcd/m^2
+  vec4 skyAround;            // as in MarchParams
+  vec4 skyOpen;              // as in MarchParams
   vec4 clearSky;             // irradiance of the open sky on level ground, klx
   vec4 shadedSky;            // the same under the clouds where there is no light volume
   vec4 shadedAir;            // as in MarchParams

@@ -92,6 +92,12 @@ FN Vec2 lookupBelowAir(IN(Vec2) p, IN(LightVolumeParams) v, IN(Sampler3) below) 
   return belowIn(Vec3(place.x, place.y, Real(float(v.levels.count) - 1.0f)), v, below);
 }
 
+// Light of the sky on level ground, klx, when clouds leave the share `open` of it: `clear`, weighed by the cosine, where
+// they leave all, and the more like `around`, its mean radiance, the less they leave, since what they leave is low.
+FN Vec3 skyOnGround(IN(Vec3) clear, IN(Vec3) around, IN(Real) open) {
+  return open * mix(3.14159265f * around, clear, open);
+}
+
 // Radiance of ground on which so much light falls from above, klx, when the share `open` of the light that it sends up does
 // not come back from the clouds: the same share that these let through of the sky's.
 FN Vec3 groundRadiance(IN(Vec3) falling, IN(Vec3) albedo, IN(Real) open) {

@@ -123,6 +123,7 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   const glm::vec3 above = light.skyIrradiance / 3.14159265f;
   m.ambientSky = glm::vec4(glm::mix(light.meanRadiance, above, veil.cover), l.ambient);
   m.skyAround = glm::vec4(light.meanRadiance, 0.0f);
+  m.skyOpen = glm::vec4(light.skyIrradiance, 0.0f);
   const glm::vec3 direct = sunHeight * light.sunIrradiance;
   const glm::vec3 diffuse =
       (1.0f - veil.cover) * light.skyIrradiance + veil.cover * veil.through * (direct + light.skyIrradiance);

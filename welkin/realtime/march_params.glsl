@@ -4,10 +4,11 @@ struct MarchParams {
   PlanetParams planet;
   vec4 sun;             // xyz: direction toward the sun, w: powder
   vec4 ambientSky;      // radiance of the sky for the clouds in kcd/m^2, w: ambient gain
-  vec4 skyAround;        // its mean radiance, for ground and air, kcd/m^2
+  vec4 skyAround;       // its mean radiance, for the air, kcd/m^2
   vec4 diffused;        // light that falls on the clouds, as isotropic radiance in kcd/m^2, w: share of it deep inside
   vec4 ambientGround;   // radiance of the lit ground in kcd/m^2, w: bounce gain
   vec4 groundAlbedo;    // w: 1 when the ground is drawn
+  vec4 skyOpen;         // irradiance of level ground by the sky without clouds, klx
   vec4 skyIrradiance;   // on the ground, clouds counted in, klx; w: albedo of the droplets
   vec4 shadedAir;       // radiance of air in the clouds' shade in kcd/m^2, w: share of the air below that lies there;
                         // with a light volume: radiance for each klx that comes down there

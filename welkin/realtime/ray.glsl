@@ -204,7 +204,7 @@ FN void renderRay(IN(Vec3) dir, IN(Real) limit, IN(Vec3) jitter, IN(MarchParams)
   Real open = 1.0f;
   if (kLightVolume != 0) {
     Vec2 below = skyBelow(Vec2(dir.x * tGround, dir.y * tGround), sky);
-    diffuse = sunLow * below.x + xyz(m.skyAround) * (3.14159265f * below.y);
+    diffuse = sunLow * below.x + skyOnGround(xyz(m.skyOpen), xyz(m.skyAround), below.y);
     open = below.y;
   }
   Vec3 surface = groundRadiance(lit * (cosSun * max(r.ground, 0.0f)) + diffuse, xyz(m.groundAlbedo), open);

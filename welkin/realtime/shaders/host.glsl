@@ -71,16 +71,12 @@ vec3 sunAt(float altitude, vec3 d) {
                                   dot(uWelkin.air.sunDirection.xyz, normal));
 }
 
-// Light without direction, klx, of which clouds leave so much (lookupBelow()).
-vec3 skyThrough(vec2 below, vec3 sunAbove) {
-  return sunAbove * below.x + uWelkin.skyAround.xyz * (3.14159265 * below.y);
-}
-
-// The same on level ground, with what the clouds send back of the ground's light; `direct`: the sun's on it.
-vec3 skyOnGround(vec2 place, vec3 sunAbove, vec3 direct) {
+// Light without direction on level ground, klx, with what the clouds send back of the ground's; `direct`: the sun's on it.
+vec3 diffuseOnGround(vec2 place, vec3 sunAbove, vec3 direct) {
   if (uWelkin.hasVolume < 0.5) return uWelkin.shadedSky.xyz;
   vec2 below = lookupBelow(place, uWelkin.volume, uWelkinBelow);
-  vec3 sky = skyThrough(below, sunAbove), back = uWelkin.groundAlbedo.xyz * (1.0 - below.y);
+  vec3 sky = sunAbove * below.x + skyOnGround(uWelkin.skyOpen.xyz, uWelkin.skyAround.xyz, below.y);
+  vec3 back = uWelkin.groundAlbedo.xyz * (1.0 - below.y);
   return sky + (direct + sky) * back / (1.0 - back);
 }
 
@@ -101,8 +97,8 @@ vec3 shadedInscatter(vec3 dir, float distance_, vec3 inscatter, vec3 through) {
   vec3 light = vec3(0.0);
   for (int i = 0; i < 2; ++i) {  // where equal shares of the light come from
     float t = -log(1.0 - end * (0.25 + 0.5 * float(i))) / max(loss, 1e-7);
-    vec2 place = dir.xy * min(t, distance_);
-    light += 0.5 * skyThrough(lookupBelowAir(place, uWelkin.volume, uWelkinBelow), sunAbove);
+    vec2 below = lookupBelowAir(dir.xy * min(t, distance_), uWelkin.volume, uWelkinBelow);
+    light += 0.5 * (sunAbove * below.x + uWelkin.skyAround.xyz * (3.14159265 * below.y));
   }
   vec2 way = wayInShade(dir, uWelkin.bottom, uWelkin.top, uWelkin.planet);
   float dark = shadeBefore(lookupAirShade(pictureAt(dir), uWelkinAirShade), distance_, loss, way);
@@ -141,7 +137,7 @@ WelkinLight welkinLight(vec3 fromEye) {
   // Inside the clouds' shell between what is known of its bottom and of its top.
   float height = clamp((q.z - uWelkin.bottom) / max(uWelkin.top - uWelkin.bottom, 1.0), 0.0, 1.0);
   float slant = dot(uWelkin.air.sunDirection.xyz, normalize(uWelkin.planet.up.xyz * uWelkin.planet.up.w + d));
-  vec3 onGround = skyOnGround(q.xy, sunAt(uWelkin.bottom, d), light.sun * max(slant, 0.0));
+  vec3 onGround = diffuseOnGround(q.xy, sunAt(uWelkin.bottom, d), light.sun * max(slant, 0.0));
   light.sky = mix(onGround, uWelkin.clearSky.xyz, height);
   return light;
 }

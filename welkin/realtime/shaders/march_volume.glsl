@@ -24,7 +24,7 @@ float spacingAt(float t, MarchParams m) {
 vec3 groundUnder(vec2 p, vec3 sunLow, MarchParams m, Sky sky) {
   float direct = max(m.sun.z, 0.0) * exp(-kReduced * textureLod(uSun, placeBelow(p, uVolume), 0.0).x);
   vec2 below = skyBelow(p, sky);
-  vec3 falling = sunLow * (direct + below.x) + m.skyAround.xyz * (3.14159265 * below.y);
+  vec3 falling = sunLow * (direct + below.x) + skyOnGround(m.skyOpen.xyz, m.skyAround.xyz, below.y);
   return groundRadiance(falling, m.groundAlbedo.xyz, below.y);
 }
 
