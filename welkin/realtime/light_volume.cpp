@@ -352,22 +352,23 @@ void LightVolume::start(gl::Framebuffer& framebuffer, int count) {
   }
 }
 
+void LightVolume::draw(const gl::Program& program, gl::Framebuffer& framebuffer, const gl::Texture& plane) const {
+  const gl::Texture* const targets[] = {&plane};
+  framebuffer.target(targets);
+  slice(program, 0);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 // What the clouds of each slice and the air between them exchange, in the mean over the level.
 void LightVolume::lightBetween(gl::Framebuffer& framebuffer) {
-  const auto draw = [&](const gl::Program& program, const gl::Texture& row) {
-    const gl::Texture* const targets[] = {&row};
-    framebuffer.target(targets);
-    slice(program, 0);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  };
   use(facesPass_);
   bind(facesPass_, "uDiffuse", light_, kUnits + 1);
   bind(facesPass_, "uSides", sides_, kUnits + 2);
   gl_.Uniform1f(facesPass_.uniform("uKnown"), job_->round > 0 ? 1.0f : 0.0f);
-  draw(facesPass_, faces_);
+  draw(facesPass_, framebuffer, faces_);
   use(sidesPass_);
   bind(sidesPass_, "uFaces", faces_, kUnits + 1);
-  draw(sidesPass_, sides_);
+  draw(sidesPass_, framebuffer, sides_);
 }
 
 void LightVolume::diffuseDown(gl::Framebuffer& framebuffer, int count) {
@@ -411,22 +412,16 @@ void LightVolume::diffuseUp(gl::Framebuffer& framebuffer, int count) {
 }
 
 void LightVolume::lightBelow(gl::Framebuffer& framebuffer) {
-  const auto draw = [&](const gl::Program& program, const gl::Texture& plane) {
-    const gl::Texture* const targets[] = {&plane};
-    framebuffer.target(targets);
-    slice(program, 0);
-    gl_.DrawArrays(GL_TRIANGLES, 0, 3);
-  };
   use(belowPass_);
   bind(belowPass_, "uDiffuse", light_, kUnits + 1);
   bind(belowPass_, "uFaces", faces_, kUnits + 2);
-  draw(belowPass_, lightSlice_[0]);
+  draw(belowPass_, framebuffer, lightSlice_[0]);
   use(groundPass_);
   bind(groundPass_, "uOverhead", lightSlice_[0], kUnits + 1);
   bind(groundPass_, "uGround", below_, kUnits + 2);
   const glm::vec4 coarser = this->coarser(job_->level);
   gl_.Uniform4f(groundPass_.uniform("uCoarser"), coarser.x, coarser.y, coarser.z, coarser.w);
-  draw(groundPass_, lightSlice_[1]);
+  draw(groundPass_, framebuffer, lightSlice_[1]);
   copy(0, below_, job_->level);
 }
 

@@ -94,6 +94,7 @@ class LightVolume {
   void passOn(const gl::Program& program, const char* before, gl::Framebuffer& framebuffer, int s);
   void diffuseUp(gl::Framebuffer& framebuffer, int count);
   void lightBelow(gl::Framebuffer& framebuffer);
+  void draw(const gl::Program& program, gl::Framebuffer& framebuffer, const gl::Texture& plane) const;
   void publish(gl::Framebuffer& framebuffer);
   void use(const gl::Program& program);
   void sunUniform(const gl::Program& program) const;
