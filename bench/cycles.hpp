@@ -22,6 +22,10 @@ namespace welkin::bench {
 // The sun and a sky of one radiance, no air and black ground: what both renderers can be given alike.
 inline Scene clearScene() {
   Scene scene = loadSky(WELKIN_SOURCE_DIR "/presets/cumulus.sky.toml");
+  // One cloud for good, whatever the preset becomes.
+  scene.seed = 3;
+  scene.layers.front().weather.roughness = 0.35f;
+  scene.layers.front().profile.erosion = 0.65f;
   Atmosphere& air = scene.atmosphere;
   air.rayleigh = air.mie = air.ozone = air.haze = 0.0f;
   air.model = SkyKind::gradient;

@@ -88,7 +88,7 @@ void printTables(Scene& scene) {
 
 // The cloud as its preview shows it: at the world's origin, its length across the picture.
 Hero standingStill(const Scene& scene) {
-  Hero hero = scene.heroes.front();
+  Hero hero = alone(scene.heroes.front());
   hero.cloud.position.x = hero.cloud.position.y = 0.0;
   hero.cloud.heading = HeroCloud{}.heading;
   return hero;

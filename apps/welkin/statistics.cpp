@@ -74,8 +74,9 @@ CloudColumn middleOf(const DensityField& field, const WorldBox& box, float extin
 }
 
 CloudColumn middleOf(const Hero& hero, const Scene& scene) {
+  const Hero one = alone(hero);
   const DensityField field(
-      {.drift = {scene.wind.speed, scene.wind.from, scene.time}, .seed = scene.seed, .heroes = std::span(&hero, 1)});
+      {.drift = {scene.wind.speed, scene.wind.from, scene.time}, .seed = scene.seed, .heroes = std::span(&one, 1)});
   const HeroBody& body = field.heroes().front();
   return middleOf(field, {body.lowest(), body.highest()}, hero.cloud.extinction);
 }

@@ -14,9 +14,10 @@
   "welkin/noise/hash.glsl", "welkin/noise/remap.glsl", "welkin/noise/lattice.glsl", "welkin/noise/perlin.glsl",    \
       "welkin/noise/simplex.glsl", "welkin/noise/worley.glsl", "welkin/noise/fbm.glsl", "welkin/noise/gamma.glsl", \
       "welkin/noise/perlin_worley.glsl", "welkin/noise/curl.glsl", "welkin/noise/textures.glsl"
-#define WELKIN_DENSITY_LAW                                                                   \
-  "welkin/density/space.glsl", "welkin/density/weather.glsl", "welkin/density/profile.glsl", \
-      "welkin/density/nubis.glsl", "welkin/density/sheet.glsl", "welkin/density/hero.glsl"
+#define WELKIN_DENSITY_LAW                                                                     \
+  "welkin/density/space.glsl", "welkin/density/weather.glsl", "welkin/density/profile.glsl",   \
+      "welkin/density/nubis.glsl", "welkin/density/sheet.glsl", "welkin/density/scatter.glsl", \
+      "welkin/density/hero.glsl"
 #define WELKIN_ATMOSPHERE_LAW                                                                                \
   "welkin/atmosphere/atmosphere.glsl", "welkin/atmosphere/scattering.glsl", "welkin/atmosphere/models.glsl", \
       "welkin/atmosphere/sky.glsl", "welkin/atmosphere/night.glsl"

@@ -59,6 +59,33 @@ TEST_P(Clearance, LosesNoCloud) {
   EXPECT_LT(std::abs(lost), 0.002 * clouded);
 }
 
+// Copies of hero clouds are met wherever a ray comes from.
+TEST(Clearance, LosesNoCopy) {
+  Scene scene = plainScene(LayerShape::profile);
+  scene.layers.clear();
+  scene.quality.stepScale = 0.5f;
+  Hero hero = heroPreset(HeroSpecies::mediocris);
+  hero.scatter = {.radius = 25000.0f, .spacing = 2500.0f, .share = 0.8f, .variation = 0.4f, .turn = 0.5f};
+  scene.heroes = {hero};
+  for (const auto& [height, pitch] : {std::pair(100.0, 0.2f), {6000.0, -0.25f}, {1500.0, 0.02f}}) {
+    scene.camera.position = {400.0, -1200.0, height};
+    scene.camera.pitch = pitch;
+    scene.quality.lightVolume = false;
+    const Image all = transmittance(scene);
+    scene.quality.lightVolume = true;
+    const Image skipping = transmittance(scene);
+    double clouded = 0.0, lost = 0.0;
+    for (std::size_t i = 0; i < all.pixels.size(); i += 4) {
+      clouded += 1.0 - all.pixels[i];
+      lost += static_cast<double>(skipping.pixels[i]) - all.pixels[i];
+    }
+    std::printf("from %.0f m: clouded %.3f, lost %.4f\n", height, clouded / (64.0 * 36.0), lost / clouded);
+    ASSERT_GT(clouded, 0.05 * 64.0 * 36.0);
+    // Small clouds far away are met by few steps, which fall in other places.
+    EXPECT_LT(std::abs(lost), 0.01 * clouded);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Skies, Clearance,
                          testing::Values(Case{"profile", LayerShape::profile, 0.0f, 0.0f, 100.0, 0.25f},
                                          Case{"sheared", LayerShape::profile, 0.0f, 1500.0f, 100.0, 0.25f},

@@ -37,7 +37,7 @@ Hero randomHero(HeroShape shape, std::mt19937& random) {
   hero.cloud.age = 0.3f + 0.5f * hero.cloud.age;  // grown
   hero.cloud.extinction += 0.01f;
   hero.classic.density += 0.1f;
-  return hero;
+  return alone(hero);
 }
 
 // A program that answers floats at points.
@@ -88,9 +88,9 @@ class Asked {
 gl::Program programOf(const gl::Api& gl, const std::string& name, const std::string& declarations,
                       const std::string& answer) {
   std::string text = "precision highp sampler3D;\n";
-  for (const char* file :
-       {"base/law.glsl", "noise/hash.glsl", "noise/lattice.glsl", "noise/perlin.glsl", "noise/simplex.glsl",
-        "noise/worley.glsl", "noise/fbm.glsl", "noise/curl.glsl", "density/hero.glsl", "realtime/grid.glsl"})
+  for (const char* file : {"base/law.glsl", "noise/hash.glsl", "noise/lattice.glsl", "noise/perlin.glsl",
+                           "noise/simplex.glsl", "noise/worley.glsl", "noise/fbm.glsl", "noise/curl.glsl",
+                           "density/scatter.glsl", "density/hero.glsl", "realtime/grid.glsl"})
     text += std::string("#include \"welkin/") + file + "\"\n";
   text += declarations +
           "uniform sampler2D uPoints;\nout vec4 oResult;\nvoid main() {\n"
@@ -211,6 +211,28 @@ TEST(HeroDensity, GlslIsTheFieldForRandomParameters) {
   }
 }
 
+// As close to each other as they can stand.
+HeroScatter crowd() { return {.radius = 30000.0f, .spacing = 0.0f, .share = 0.9f, .variation = 0.4f, .turn = 0.6f}; }
+
+TEST(HeroDensity, GlslScattersAsTheField) {
+  Asked asked;
+  HeroLaw glsl(asked);
+  std::mt19937 random(8);
+  for (const HeroSpecies species : {HeroSpecies::mediocris, HeroSpecies::lenticularis}) {
+    Hero hero = heroPreset(species);
+    hero.cloud.position = {300.0, -200.0, 800.0};
+    hero.scatter = crowd();
+    const DensityField field({.seed = 3, .heroes = std::span(&hero, 1)});
+    const HeroBody& body = field.heroes().front();
+    const std::vector<glm::dvec3> points = pointsIn(body.lowest(), body.highest(), random);
+    const Errors errors = errorsOf(points, glsl(body, points), body.params.high.w,
+                                   [&](const std::vector<glm::dvec3>& at) { return field.extinction(at); });
+    EXPECT_GT(errors.inCloud, 100u);
+    EXPECT_LT(errors.share(0.9), 1e-3);  // 30 km away a float's step is 2 mm, and the edge 10 m
+    EXPECT_LT(errors.beyond.back(), 1e-3);
+  }
+}
+
 // The control: another seed is another cloud.
 TEST(HeroDensity, AnotherSeedIsAnotherDensity) {
   Asked asked;
@@ -233,13 +255,15 @@ TEST(HeroDensity, TheVoxelsOnTheGpuAreThoseOfTheCpu) {
   const gl::Api& gl = asked.gl();
   const gl::Program program = programOf(
       gl, "voxels", "layout(std140) uniform Grid { GridParams uGrid; };\nuniform sampler3D uIndex, uBricks;\n",
-      "max(gridExtinction(p, uGrid, uIndex, uBricks).x, 0.0)");
+      "max(gridExtinction(uGrid.scatter.place.w > 0.0 ? scatteredPoint(p, uGrid.scatter) : p, uGrid, uIndex, "
+      "uBricks).x, 0.0)");
   program.bindBlock("Grid", 0);
   gl::UniformBuffer params(gl);
   std::mt19937 random(6);
-  for (std::size_t i = 0; i < kShapes; ++i) {
-    Hero hero = randomHero(static_cast<HeroShape>(i), random);
+  for (std::size_t i = 0; i <= kShapes; ++i) {
+    Hero hero = randomHero(static_cast<HeroShape>(i % kShapes), random);
     hero.cloud.position = {0.0, 0.0, 800.0};
+    if (i == kShapes) hero.scatter = crowd();
     PlacedGrid grid = heroGrid(hero, 0.0, 3, 4e5);
     auto halves = std::make_shared<VoxelGrid>(*grid.voxels);
     // As the texture holds them.

@@ -327,7 +327,9 @@ CachedGrid cachedGrid(const PlacedGrid& grid, const glm::dvec3& anchor) {
 // hero clouds are all there is, round those.
 void placeLevels(Majorants& m, const CloudCache& cache, const WorldBox& solids, const CloudCacheExtent& extent) {
   double cell = extent.finestCell, reach = 0.5 * extent.weather.edge(extent.weather.levels - 1);
-  if (cache.layers.empty()) {
+  const bool scattered = std::any_of(cache.heroes.begin(), cache.heroes.end(),
+                                     [](const CachedHero& hero) { return hero.body.scatter.any(); });
+  if (cache.layers.empty() && !scattered) {
     m.centre = glm::vec2(0.5 * (solids.low + solids.high));
     reach = 1.0 + 0.5 * std::max(solids.high.x - solids.low.x, solids.high.y - solids.low.y);
     cell = 2.0 * reach / extent.cells;

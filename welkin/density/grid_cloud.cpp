@@ -25,7 +25,7 @@ PlacedGrid placed(const GridCloud& cloud, std::shared_ptr<const VoxelGrid> voxel
   if (cloud.values == GridValues::file && stated > 0.0) one = stated;
   if (cloud.values == GridValues::extinction) one = 1.0;
   if (cloud.values == GridValues::water) one = extinctionOfWater(cloud.dropletDiameter);
-  return {std::move(voxels), glm::inverse(world * placement), static_cast<float>(one * cloud.density)};
+  return {std::move(voxels), glm::inverse(world * placement), static_cast<float>(one * cloud.density), {}};
 }
 
 WorldBox boundsOf(const PlacedGrid& grid) {
@@ -38,7 +38,7 @@ WorldBox boundsOf(const PlacedGrid& grid) {
     box.low = glm::min(box.low, p);
     box.high = glm::max(box.high, p);
   }
-  return box;
+  return {grid.scatter.lowest(box.low), grid.scatter.highest(box.high)};
 }
 
 }  // namespace welkin

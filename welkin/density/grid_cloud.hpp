@@ -6,6 +6,7 @@
 #include <string>
 
 #include "welkin/base/fields.hpp"
+#include "welkin/density/scatter.hpp"
 #include "welkin/density/scatterers.hpp"
 #include "welkin/density/voxel_grid.hpp"
 
@@ -70,9 +71,10 @@ struct PlacedGrid {
   std::shared_ptr<const VoxelGrid> voxels;  // with a margin of zeros, toward which the outermost values fade
   glm::dmat4 fromWorld{1.0};                // to the voxels' own axes
   float extinction = 1.0f;                  // 1/m, of the value 1
+  Scatter scatter{};
 
   float at(const glm::dvec3& point) const {
-    return extinction * voxels->interpolate(glm::dvec3(fromWorld * glm::dvec4(point, 1.0)));
+    return extinction * voxels->interpolate(glm::dvec3(fromWorld * glm::dvec4(scatter.toCloud(point), 1.0)));
   }
 };
 

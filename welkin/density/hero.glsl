@@ -27,6 +27,7 @@ struct HeroParams {
   float distortion, worley, clump, wave;   // classic
   float simplex, whisp, cellScale, halfWidth;  // cells of simplex noise in one of the cellular; m
   int kind, octaves, parts, seed;
+  ScatterParams scatter;
 };
 
 // plates: (x, y, z, radius), (thickness above, below, arch, stretch of the lee), all in m but the last.
@@ -42,9 +43,11 @@ const float kHeroBillowDeep = 0.75f;
 const float kHeroBillowMean = 0.7f;
 
 FN Vec3 heroAxes(IN(Vec3) q, IN(HeroParams) c) {
-  Real x = q.x - c.place.x;
-  Real y = q.y - c.place.y;
-  return Vec3(x * c.axisX + y * c.axisY, y * c.axisX - x * c.axisY, q.z - c.place.z);
+  Vec3 p = q;
+  if (c.scatter.place.w > 0.0f) p = scatteredPoint(q, c.scatter);
+  Real x = p.x - c.place.x;
+  Real y = p.y - c.place.y;
+  return Vec3(x * c.axisX + y * c.axisY, y * c.axisX - x * c.axisY, p.z - c.place.z);
 }
 
 // How strong the billows are at a height: less at the flat base, less where the top turns to ice.

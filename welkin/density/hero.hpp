@@ -219,12 +219,42 @@ struct FieldTable<HeroClassic> {
 };
 
 // A hero cloud with all its parts.
+// Copies of it over the land round its place: it stays the one in the middle.
+struct HeroScatter {
+  float radius = 0.0f;      // m
+  float spacing = 4000.0f;  // m
+  float share = 0.6f;
+  float variation = 0.3f;
+  float turn = 0.4363323f;  // rad
+};
+template <>
+struct FieldTable<HeroScatter> {
+  static auto make() {
+    return fieldRows(
+        field<&HeroScatter::radius, kMetres>("radius", {0, 300000}, {0, 40000},
+                                             "of the land on which copies stand; 0: none"),
+        field<&HeroScatter::spacing, kMetres>("spacing", {0, 300000}, {500, 20000},
+                                              "edge of the squares that hold a copy each; never less than it needs"),
+        field<&HeroScatter::share>("share", {0, 1}, {}, "chance of a square to hold one"),
+        field<&HeroScatter::variation>("variation", {0, 0.9}, {0, 0.6}, "half the range of their sizes"),
+        field<&HeroScatter::turn, kDegrees>("turn", {0, 180}, {0, 90},
+                                            "how far they turn from its heading; half of them are mirrored"));
+  }
+};
+
 struct Hero {
   HeroCloud cloud;
   HeroForm form;
   HeroSurface surface;
   HeroClassic classic;
+  HeroScatter scatter;
 };
+
+// The cloud without its copies.
+inline Hero alone(Hero hero) {
+  hero.scatter.radius = 0.0f;
+  return hero;
+}
 
 // The cloud of a species: the defaults of all tables.
 Hero heroPreset(HeroSpecies species);

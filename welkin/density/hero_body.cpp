@@ -125,6 +125,7 @@ TextureView HeroBody::shapeView() const {
 law::HeroParams HeroBody::paramsAt(const glm::dvec2& anchor) const {
   law::HeroParams p = params;
   p.place = glm::vec4(glm::dvec3(origin.x - anchor.x, origin.y - anchor.y, origin.z), params.place.w);
+  p.scatter = scatter.paramsAt(anchor);
   return p;
 }
 
@@ -143,8 +144,8 @@ glm::dvec3 extreme(const HeroBody& body, bool highest) {
 }
 }  // namespace
 
-glm::dvec3 HeroBody::lowest() const { return extreme(*this, false); }
-glm::dvec3 HeroBody::highest() const { return extreme(*this, true); }
+glm::dvec3 HeroBody::lowest() const { return scatter.lowest(extreme(*this, false)); }
+glm::dvec3 HeroBody::highest() const { return scatter.highest(extreme(*this, true)); }
 
 HeroBody bakeHero(const Hero& hero, const Drift& drift, int seed, int cells) {
   const HeroCloud& cloud = hero.cloud;
@@ -228,7 +229,23 @@ HeroBody bakeHero(const Hero& hero, const Drift& drift, int seed, int cells) {
       makeClassic(body, hero, form, drift, cells);
       break;
   }
+  body.scatter = scatterOf(hero, body);
   return body;
+}
+
+Scatter scatterOf(const Hero& hero, const HeroBody& body) {
+  const HeroScatter& s = hero.scatter;
+  const law::HeroParams& p = body.params;
+  if (s.radius <= 0.0f) return {};
+  float reach = 0.0f;
+  for (int corner = 0; corner < 4; ++corner)
+    reach = std::max(reach, std::hypot(corner & 1 ? p.low.x : p.high.x, corner & 2 ? p.low.y : p.high.y));
+  // No copy reaches out of its square.
+  const float edge = std::max(s.spacing, 2.01f * reach * (1.0f + s.variation));
+  return {glm::dvec2(body.origin),
+          {.place = {0.0f, 0.0f, static_cast<float>(body.origin.z), edge},
+           .chance = {s.radius, s.share, s.variation, reach},
+           .axis = {p.axisX, p.axisY, s.turn, static_cast<float>(p.seed)}}};
 }
 
 Volume bakeHeroBillows() {

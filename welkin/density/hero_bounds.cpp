@@ -32,7 +32,51 @@ HeroBounds::HeroBounds(const law::HeroParams& hero, const law::HeroParts& parts,
       depth_(shape, 3, TexelBounds::Kind::box), billows_(billows) {}
 
 float HeroBounds::extinctionIn(const glm::vec3& low, const glm::vec3& high) const {
+  return c_.scatter.place.w > 0.0f ? scatteredIn({low, high}) : aloneIn({low, high});
+}
+
+float HeroBounds::scatteredIn(const Box& box) const {
+  constexpr float kMostCopies = 16.0f;  // that are looked at one by one
+  const law::ScatterParams& s = c_.scatter;
+  const glm::vec2 place(s.place), low = glm::vec2(box.low) - place, high = glm::vec2(box.high) - place;
+  const float edge = s.place.w;
+  // Rounding at the borders of squares.
+  const float loose = 0.02f + 1e-6f * (glm::length(low) + glm::length(high) + glm::length(place));
+  const glm::vec2 first = glm::floor((low - loose) / edge + 0.5f), last = glm::floor((high + loose) / edge + 0.5f);
+  if ((last.x - first.x + 1.0f) * (last.y - first.y + 1.0f) > kMostCopies) {
+    const float most = 1.0f + s.chance.z;
+    const bool apart = box.low.z - s.place.z > most * std::max(c_.high.z, 0.0f) ||
+                       box.high.z - s.place.z < most * std::min(c_.low.z, 0.0f);
+    return apart ? 0.0f : c_.high.w * 1.0002f;
+  }
+  float found = 0.0f;
+  for (float j = first.y; j <= last.y; ++j)
+    for (float i = first.x; i <= last.x; ++i) {
+      const glm::vec4 copy = law::scatterCopy(i, j, s);
+      if (copy.w == 0.0f) continue;
+      const float size = std::abs(copy.w), turnX = std::cos(copy.z), turnY = std::sin(copy.z);
+      const glm::vec2 middle = glm::vec2(i, j) * edge;
+      const glm::vec2 from = glm::max(low, middle - 0.5f * edge) - loose,
+                      to = glm::min(high, middle + 0.5f * edge) + loose;
+      const glm::vec2 p = (0.5f * (from + to) - middle - glm::vec2(copy)) / size, half = 0.5f * (to - from) / size;
+      glm::vec2 q(turnX * p.x + turnY * p.y, turnX * p.y - turnY * p.x);
+      glm::vec2 reach(std::abs(turnX) * half.x + std::abs(turnY) * half.y,
+                      std::abs(turnY) * half.x + std::abs(turnX) * half.y);
+      if (copy.w < 0.0f) {
+        const glm::vec2 axis(s.axis), twice = glm::abs(2.0f * axis * axis - 1.0f);
+        const float across = std::abs(2.0f * axis.x * axis.y);
+        q = 2.0f * glm::dot(q, axis) * axis - q;
+        reach = {twice.x * reach.x + across * reach.y, across * reach.x + twice.y * reach.y};
+      }
+      const float z0 = s.place.z + (box.low.z - s.place.z) / size, z1 = s.place.z + (box.high.z - s.place.z) / size;
+      found = std::max(found, aloneIn({glm::vec3(place + q - reach, z0), glm::vec3(place + q + reach, z1)}));
+    }
+  return found;
+}
+
+float HeroBounds::aloneIn(const Box& around) const {
   // The box in the cloud's own axes.
+  const glm::vec3 &low = around.low, &high = around.high;
   const glm::vec3 place(c_.place), middle = 0.5f * (low + high) - place, half = 0.5f * (high - low);
   const float x = middle.x * c_.axisX + middle.y * c_.axisY, y = middle.y * c_.axisX - middle.x * c_.axisY;
   const float alongX = std::abs(c_.axisX), alongY = std::abs(c_.axisY);

@@ -22,6 +22,9 @@ class HeroBounds {
   struct Box {
     glm::vec3 low, high;
   };
+  // Of the copies in a box, and of the cloud itself.
+  float scatteredIn(const Box& box) const;
+  float aloneIn(const Box& box) const;
   // Of the density's share in a box of the cloud's own axes.
   float solidIn(const Box& x) const;
   float anvilIn(const Box& x) const;

@@ -14,7 +14,7 @@ void makeIce(HeroCloud& cloud) {
 
 Hero humilis(Hero h) {
   h.cloud.position.z = 1000.0;
-  h.cloud.extinction = 0.15f;
+  h.cloud.extinction = 0.2f;
   h.form = {.width = 420.0f,
             .breadth = 0.69f,
             .height = 140.0f,
@@ -34,7 +34,7 @@ Hero humilis(Hero h) {
 
 Hero mediocris(Hero h) {
   h.cloud.position.z = 1100.0;
-  h.cloud.extinction = 0.16f;
+  h.cloud.extinction = 0.2f;
   h.form = {.width = 900.0f,
             .breadth = 0.69f,
             .height = 750.0f,
@@ -173,12 +173,14 @@ Hero heroPreset(HeroSpecies species) {
 
 void setSpecies(Hero& hero, HeroSpecies species) {
   const HeroCloud place = hero.cloud;
+  const HeroScatter scatter = hero.scatter;
   hero = heroPreset(species);
   hero.cloud.position.x = place.position.x;
   hero.cloud.position.y = place.position.y;
   hero.cloud.heading = place.heading;
   hero.cloud.scale = place.scale;
   hero.cloud.seed = place.seed;
+  hero.scatter = scatter;
 }
 
 }  // namespace welkin

@@ -15,6 +15,7 @@ namespace welkin::HWY_NAMESPACE::law {
 #include "welkin/density/profile.glsl"
 #include "welkin/density/nubis.glsl"
 #include "welkin/density/sheet.glsl"
+#include "welkin/density/scatter.glsl"
 #include "welkin/density/hero.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::HWY_NAMESPACE::law

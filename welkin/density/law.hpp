@@ -9,6 +9,7 @@ namespace welkin::law {
 #include "welkin/density/profile.glsl"
 #include "welkin/density/nubis.glsl"
 #include "welkin/density/sheet.glsl"
+#include "welkin/density/scatter.glsl"
 #include "welkin/density/hero.glsl"
 #include "welkin/base/law_end.inc"
 }  // namespace welkin::law

@@ -8,9 +8,10 @@ struct GridParams {
   vec4 bricks;           // number of bricks
   vec4 index;            // 1 / texels of the index
   vec4 atlas;            // 1 / texels of the bricks
+  ScatterParams scatter;
 };
 
-// Extinction in 1/m, and 1 inside the box, -1 outside, where there is none.
+// Extinction in 1/m at a point of the cloud itself, and 1 inside the box, -1 outside, where there is none.
 FN Vec2 gridExtinction(IN(Vec3) q, IN(GridParams) g, IN(Sampler3) index, IN(Sampler3) bricks) {
   Vec3 v = Vec3(g.rowX.x * q.x + g.rowX.y * q.y + g.rowX.z * q.z + g.rowX.w,
                 g.rowY.x * q.x + g.rowY.y * q.y + g.rowY.z * q.z + g.rowY.w,

@@ -149,6 +149,7 @@ law::GridParams GridAtlas::params(std::size_t which, const glm::dvec2& anchor) c
              1.0f / static_cast<float>(index_.depth()), 0.0f};
   p.atlas = {1.0f / static_cast<float>(bricks_.width()), 1.0f / static_cast<float>(bricks_.height()),
              1.0f / static_cast<float>(bricks_.depth()), 0.0f};
+  p.scatter = grid.placed.scatter.paramsAt(anchor);
   return p;
 }
 

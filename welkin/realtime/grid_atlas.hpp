@@ -41,6 +41,7 @@ class GridAtlas {
   GridAtlas(const gl::Api& gl, std::span<const PlacedGrid> grids);
 
   std::size_t count() const { return grids_.size(); }
+  bool scattered(std::size_t grid) const { return grids_[grid].placed.scatter.any(); }
   // For points of cloud space whose plane is relative to `anchor`.
   law::GridParams params(std::size_t grid, const glm::dvec2& anchor) const;
   // Lowest and highest altitude of a grid's box, m.

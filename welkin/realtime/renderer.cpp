@@ -187,7 +187,7 @@ struct Renderer::State {
     const auto same = [&](const Hero& x, const Hero& y) {
       const bool ages = x.cloud.lifetime > 0.0f || x.cloud.updraft > 0.0f || x.form.shape == HeroShape::classic;
       return sameFields(x.cloud, y.cloud) && sameFields(x.form, y.form) && sameFields(x.surface, y.surface) &&
-             sameFields(x.classic, y.classic) && (!ages || a.time == b.time);
+             sameFields(x.classic, y.classic) && sameFields(x.scatter, y.scatter) && (!ages || a.time == b.time);
     };
     return a.seed == b.seed && std::equal(a.heroes.begin(), a.heroes.end(), b.heroes.begin(), b.heroes.end(), same);
   }
@@ -336,15 +336,16 @@ void Renderer::State::makeMarch() {
   }
   for (std::size_t i = 0; i < grids.count(); ++i)
     layers += fmt::format(
-        "inGrid = gridExtinction(q, uGrid[{}], uGridIndex, uGridBricks); "
+        "inGrid = gridExtinction({1}, uGrid[{0}], uGridIndex, uGridBricks); "
         "sum = vec3(sum.x + inGrid.x, max(sum.y, inGrid.y), sum.z); ",
-        i);
+        i, grids.scattered(i) ? fmt::format("scatteredPoint(q, uGrid[{}].scatter)", i) : "q");
   std::string clearance;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     clearance +=
         fmt::format("clear = min(clear, layerClearance(q, way, sky.dither, uLayer[{0}], uClip[{0}], uBounds)); ", i);
   for (std::size_t i = 0; i < grids.count(); ++i)
-    clearance += fmt::format("clear = min(clear, gridClearance(q, way, uGrid[{}])); ", i);
+    clearance += fmt::format("clear = min(clear, {}(q, way, uGrid[{}])); ",
+                             grids.scattered(i) ? "scatterClearance" : "gridClearance", i);
   std::string rain;
   for (std::size_t i = 0; i < scene.layers.size(); ++i)
     if (rains(scene, scene.layers[i]))

@@ -81,6 +81,7 @@ std::vector<Section> sectionsOf(Scene& scene) {
     all.push_back(section(path + ".form", "its smooth shape", hero.form));
     all.push_back(section(path + ".surface", "billows and edge", hero.surface));
     all.push_back(section(path + ".classic", "the formula of shape \"classic\"", hero.classic));
+    all.push_back(section(path + ".scatter", "copies of it over the land", hero.scatter));
   }
   return all;
 }

@@ -32,3 +32,36 @@ float gridClearance(vec3 q, vec3 way, GridParams g) {
   if (leave <= 0.0 || enter > leave + 100.0) return 1e9;  // the ray bends a little in cloud space
   return max(enter - 100.0, 0.0);
 }
+
+// Before the next copy of a scattered grid, or at least the border of a square. `g` lies along the axes of the world.
+float scatterClearance(vec3 q, vec3 way, GridParams g) {
+  ScatterParams s = g.scatter;
+  float most = 1.0 + s.chance.z;
+  vec2 heights = (vec2(0.0, g.voxels.z) - g.rowZ.w) / g.rowZ.z - s.place.z;
+  heights = mix(heights, heights * most, vec2(heights.x < 0.0, heights.y > 0.0)) + s.place.z;
+  float rise = q.z < heights.x ? heights.x - q.z : heights.y - q.z;
+  if (q.z < heights.x || q.z > heights.y) {
+    float vertical = rise * way.z > 0.0 ? rise / way.z : 1e9;
+    if (vertical > 200.0) return vertical - 100.0;  // the ray bends a little in cloud space
+  }
+  vec2 p = q.xy - s.place.xy;
+  // Before the land that has them.
+  float far = s.chance.x + s.place.w, away = length(p);
+  if (away > far) {
+    float b = dot(p, way.xy), a = max(dot(way.xy, way.xy), 1e-12), c = dot(p, p) - far * far;
+    float disc = b * b - a * c;
+    if (b >= 0.0 || disc <= 0.0) return 1e9;
+    return max((-b - sqrt(disc)) / a, 0.01);
+  }
+  vec2 cell = floor(p / s.place.w + 0.5), at = p / s.place.w + 0.5 - cell;
+  vec2 left = mix(at, 1.0 - at, vec2(greaterThan(way.xy, vec2(0.0)))) * s.place.w;
+  vec2 border = left / max(abs(way.xy), vec2(1e-9));
+  float leave = max(min(border.x, border.y), 0.01) + 0.01;
+  vec4 copy = scatterCopy(cell.x, cell.y, s);
+  if (copy.w == 0.0) return leave;
+  float size = abs(copy.w);
+  mat2 turn = mat2(cos(copy.z), -sin(copy.z), sin(copy.z), cos(copy.z));
+  vec2 along = turn * way.xy;
+  if (copy.w < 0.0) along = 2.0 * dot(along, s.axis.xy) * s.axis.xy - along;
+  return min(size * gridClearance(scatteredPoint(q, s), vec3(along, way.z), g), leave);
+}

@@ -11,6 +11,7 @@
 #include "welkin/density/sheet.glsl"
 #include "welkin/precipitation/precipitation.glsl"
 #include "welkin/scene/rain.glsl"
+#include "welkin/density/scatter.glsl"
 #include "welkin/realtime/grid.glsl"
 #include "welkin/realtime/light_volume.glsl"
 #include "welkin/realtime/shaders/air_shade_picture.glsl"
