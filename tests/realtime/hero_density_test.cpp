@@ -212,7 +212,12 @@ TEST(HeroDensity, GlslIsTheFieldForRandomParameters) {
 }
 
 // As close to each other as they can stand.
-HeroScatter crowd() { return {.radius = 30000.0f, .spacing = 0.0f, .share = 0.9f, .variation = 0.4f, .turn = 0.6f}; }
+HeroScatter crowd() { return {.radius = 30000.0f, .spacing = 0.0f, .share = 1.0f, .variation = 0.2f, .turn = 0.6f}; }
+
+std::vector<glm::dvec3> pointsAmong(const glm::dvec3& low, const glm::dvec3& high, std::mt19937& random) {
+  const glm::dvec3 middle = 0.5 * (low + high), half = glm::dvec3(0.5, 0.5, 1.0) * (high - middle);
+  return pointsIn(middle - half, middle + half, random);
+}
 
 TEST(HeroDensity, GlslScattersAsTheField) {
   Asked asked;
@@ -224,10 +229,10 @@ TEST(HeroDensity, GlslScattersAsTheField) {
     hero.scatter = crowd();
     const DensityField field({.seed = 3, .heroes = std::span(&hero, 1)});
     const HeroBody& body = field.heroes().front();
-    const std::vector<glm::dvec3> points = pointsIn(body.lowest(), body.highest(), random);
+    const std::vector<glm::dvec3> points = pointsAmong(body.lowest(), body.highest(), random);
     const Errors errors = errorsOf(points, glsl(body, points), body.params.high.w,
                                    [&](const std::vector<glm::dvec3>& at) { return field.extinction(at); });
-    EXPECT_GT(errors.inCloud, 100u);
+    EXPECT_GT(errors.inCloud, 60u);
     EXPECT_LT(errors.share(0.9), 1e-3);  // 30 km away a float's step is 2 mm, and the edge 10 m
     EXPECT_LT(errors.beyond.back(), 1e-3);
   }
@@ -261,9 +266,10 @@ TEST(HeroDensity, TheVoxelsOnTheGpuAreThoseOfTheCpu) {
   gl::UniformBuffer params(gl);
   std::mt19937 random(6);
   for (std::size_t i = 0; i <= kShapes; ++i) {
-    Hero hero = randomHero(static_cast<HeroShape>(i % kShapes), random);
+    const bool many = i == kShapes;
+    Hero hero = many ? heroPreset(HeroSpecies::mediocris) : randomHero(static_cast<HeroShape>(i), random);
     hero.cloud.position = {0.0, 0.0, 800.0};
-    if (i == kShapes) hero.scatter = crowd();
+    if (many) hero.scatter = crowd();
     PlacedGrid grid = heroGrid(hero, 0.0, 3, 4e5);
     auto halves = std::make_shared<VoxelGrid>(*grid.voxels);
     // As the texture holds them.
@@ -273,7 +279,7 @@ TEST(HeroDensity, TheVoxelsOnTheGpuAreThoseOfTheCpu) {
         for (int x = 0; x < n.x; ++x) halves->set({x, y, z}, roundedToHalf(halves->at({x, y, z})));
     grid.voxels = halves;
     const WorldBox box = boundsOf(grid);
-    const std::vector<glm::dvec3> points = pointsIn(box.low, box.high, random);
+    const std::vector<glm::dvec3> points = (many ? pointsAmong : pointsIn)(box.low, box.high, random);
     const GridAtlas atlas(gl, std::span(&grid, 1));
     const law::GridParams p = atlas.params(0, {0.0, 0.0});
     params.upload(&p, sizeof p);
