@@ -69,10 +69,12 @@ Region regionOf(const std::string& text, const Scene& scene, double voxel) {
     region.low.z = std::min(region.low.z, static_cast<double>(shell.bottom));
     region.high.z = std::max(region.high.z, static_cast<double>(shell.top));
   }
-  if (scene.layers.empty() && !(scene.classical.empty() && scene.heroes.empty()))
-    region = {glm::dvec3(1e9), glm::dvec3(-1e9)};
+  // Clouds without end, or nearly, are cut off round the camera; others are taken whole.
+  const bool endless = !scene.layers.empty() || std::any_of(scene.heroes.begin(), scene.heroes.end(),
+                                                            [](const Hero& h) { return h.scatter.radius > 0.0f; });
+  if (!endless && !(scene.classical.empty() && scene.heroes.empty())) region = {glm::dvec3(1e9), glm::dvec3(-1e9)};
   const auto include = [&](const glm::dvec3& low, const glm::dvec3& high) {
-    if (scene.layers.empty()) {
+    if (!endless) {
       region.low = glm::min(region.low, low);
       region.high = glm::max(region.high, high);
     }

@@ -71,6 +71,14 @@ TEST_F(VdbCommand, AxesUnitsAndMeaningsAgree) {
   EXPECT_NEAR(loadVdb(path("water.vdb")).voxels.maximum(), 4.0 * one * read.voxels.maximum(), 1e-4);
 }
 
+// Its copies go on for 60 km: 6 km round the camera are taken, in whole bricks.
+TEST_F(VdbCommand, AFieldOfCopiesIsCutOffRoundTheCamera) {
+  const test::Outcome baked = test::run("vdb hero_field -q --voxel 200 -o " + path("field.vdb"));
+  ASSERT_EQ(baked.code, 0) << baked.err;
+  EXPECT_NE(baked.out.find("-9600 m east to -1600 m"), std::string::npos) << baked.out;
+  EXPECT_GT(loadVdb(path("field.vdb")).voxels.maximum(), 0.5f);
+}
+
 TEST_F(VdbCommand, TilesFitTogether) {
   ASSERT_EQ(bake("--float -o " + path("whole.vdb")).code, 0);
   ASSERT_EQ(bake("--float --tiles 2x3 -o " + path("part.vdb")).code, 0);
