@@ -109,9 +109,9 @@ TEST(Denoise, SpreadsSpikesAndKeepsTheirLight) {
   EXPECT_NEAR(meanOf(out, 0, kWidth) / meanOf(layers.radiance, 0, kWidth), 1.0, 0.02);
 }
 
-// One path of 32 that is 1200 times as bright as the others: spread, it raises the square of 17 pixels around it by up
+// One path of 32 that is 1200 times as bright as the others: spread, it raises the 17 x 17 pixels around it by up
 // to 13 % (1200 / 32 of 289); dimmed, it leaves nothing that an eye could tell (Weber's 2 %).
-TEST(Denoise, DimsSpikesThatWouldBeSquares) {
+TEST(Denoise, DimsSpikesThatWouldBeDiscs) {
   TraceLayers layers = tracedOf([](int, int) { return 10.0; }, false);
   const float excess = 10.0f * 1200.0f / kSamples;
   std::fill_n(layers.radiance.at(48, 32), 3, 10.0f + excess);
@@ -124,6 +124,27 @@ TEST(Denoise, DimsSpikesThatWouldBeSquares) {
   };
   EXPECT_GT(square(denoise(layers)), 10.6);
   EXPECT_NEAR(square(denoise(layers, Outliers::dimmed)), 10.0, 0.2);
+}
+
+// What is spread fades: between neighbours it falls by less than half of its height; a window with edges ends it at
+// once.
+TEST(Denoise, SpreadsWithoutAnEdge) {
+  TraceLayers layers = tracedOf([](int, int) { return 10.0; }, false);
+  const float excess = 10.0f * 1200.0f / kSamples;
+  std::fill_n(layers.radiance.at(48, 32), 3, 10.0f + excess);
+  *layers.variance.at(48, 32) = excess * excess;
+  const Image with = denoise(layers);
+  std::fill_n(layers.radiance.at(48, 32), 3, 10.0f);
+  *layers.variance.at(48, 32) = *layers.variance.at(47, 32);
+  const Image without = denoise(layers);
+  const auto raised = [&](int x) { return with.at(x, 32)[0] - without.at(x, 32)[0]; };
+  float most = 0.0f, edge = 0.0f;
+  for (int x = 30; x < 66; ++x) {
+    most = std::max(most, raised(x));
+    edge = std::max(edge, std::abs(raised(x + 1) - raised(x)));
+  }
+  EXPECT_GT(most, 0.3f);
+  EXPECT_LT(edge, 0.45f * most);
 }
 
 // Twelve pixels in a thousand hold a bright path, alone or beside another. None stays a speck, brighter by a tenth

@@ -14,7 +14,7 @@ namespace welkin::trace {
 
 namespace {
 
-constexpr int kSearch = 8, kPatch = 1;  // half the sides of window and patch, in pixels
+constexpr int kSearch = 9, kPatch = 1;  // half the sides of window and patch, in pixels
 // What makes a unit of distance: these many standard errors of a difference of luminance or transmittance, this
 // difference of the logarithm of the depth. Chosen by the least relMSE of the default sky with 32 paths.
 constexpr float kLightScale = 0.7f, kEdgeScale = 2.0f, kDepthScale = 0.1f;
@@ -160,9 +160,16 @@ struct RowSums {
   explicit RowSums(std::size_t width) : red(width), green(width), blue(width), weight(width), greatest(width) {}
 };
 
+// How much a pixel so far away can weigh: a window without edges, or what is spread would stand in squares.
+float windowOf(int dx, int dy) {
+  const float share = static_cast<float>(dx * dx + dy * dy) / static_cast<float>((kSearch + 1) * (kSearch + 1));
+  return std::max(1.0f - share * share, 0.0f);
+}
+
 // Adds to each pixel of row y the one `dx`, `dy` away, not itself. `distances` are those of the rows from y - kPatch to
 // y + kPatch.
 void addNeighbours(const Planes& p, int y, int dx, int dy, const std::vector<float>* distances, RowSums& sums) {
+  const float window = windowOf(dx, dy);
   constexpr int kSide = 2 * kPatch + 1;
   const auto there = [&](const Plane& plane) { return plane.row(y + dy) + dx; };
   const float *present = there(p.present), *r = there(p.red), *g = there(p.green), *b = there(p.blue);
@@ -172,7 +179,7 @@ void addNeighbours(const Planes& p, int y, int dx, int dy, const std::vector<flo
       for (std::size_t column = 0; column < kSide; ++column) sum += distances[row][x + column];
     // exp(-d) to .07 and never negative: (1 - d/8)^8.
     const float d = std::clamp(sum / static_cast<float>(kSide * kSide), 0.0f, kFarthest);
-    const float near = squared(squared(squared(1.0f - d / kFarthest))) * present[x];
+    const float near = squared(squared(squared(1.0f - d / kFarthest))) * window * present[x];
     sums.red[x] += near * r[x];
     sums.green[x] += near * g[x];
     sums.blue[x] += near * b[x];
@@ -188,7 +195,7 @@ void filterBand(const Planes& p, int begin, int end, Image& out) {
   std::vector<RowSums> sums(rows, RowSums(width));
   for (int dy = -kSearch; dy <= kSearch; ++dy)
     for (int dx = -kSearch; dx <= kSearch; ++dx) {
-      if (dx == 0 && dy == 0) continue;
+      if ((dx == 0 && dy == 0) || windowOf(dx, dy) <= 0.0f) continue;
       for (std::size_t i = 0; i < distances.size(); ++i)
         rowDistances(p, begin + static_cast<int>(i) - kPatch, dx, dy, distances[i]);
       for (std::size_t i = 0; i < rows; ++i)
