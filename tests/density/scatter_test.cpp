@@ -98,30 +98,45 @@ TEST(Scatter, CopiesStayInTheirSquaresAndOnTheLand) {
   }
 }
 
-TEST(Scatter, BoundsHoldEverySample) {
-  const Hero hero = scattered(2500.0f, 40000.0f);
-  const glm::dvec3 anchor(1234.0, -777.0, 150.0), ground(1234.0, -777.0, 0.0);
-  const CloudCache cache =
-      bakeCloudCache({.seed = 5, .heroes = std::span(&hero, 1)}, {}, anchor, {.cells = 64, .cellLayers = 24});
-  const HeroBody& body = cache.heroes.front().body;
-  std::mt19937 random(4);
-  std::size_t inCloud = 0, empty = 0;
-  const glm::dvec3 low = body.lowest(), high = body.highest();
-  const glm::dvec3 near(3000.0, 3000.0, 0.0), middle(anchor.x, anchor.y, 0.0);
-  std::vector<glm::dvec3> points = pointsIn(low, high, 100000, random);
-  const std::vector<glm::dvec3> nearby = pointsIn(middle - near + glm::dvec3(0.0, 0.0, low.z),
-                                                  middle + near + glm::dvec3(0.0, 0.0, high.z), 100000, random);
-  points.insert(points.end(), nearby.begin(), nearby.end());
-  for (const glm::dvec3& point : points) {
-    const glm::vec3 p(point - ground);
-    const float sigma = extinctionIn(cache, p), most = majorantAt(cache.majorants, p);
-    ASSERT_LE(sigma, most) << p.x << " " << p.y << " " << p.z;
-    inCloud += sigma > 0.0f;
-    empty += most == 0.0f;
+// Nearby square by square, far away for all at once. The formula of shape "classic" answers more than its extinction.
+class Scattered : public testing::TestWithParam<HeroShape> {};
+
+TEST_P(Scattered, BoundsHoldEverySample) {
+  Hero hero = scattered(2500.0f, 40000.0f);
+  hero.form.shape = GetParam();
+  hero.classic.distortion = 1.0f;
+  const glm::dvec3 anchor(1234.0, -777.0, 150.0), ground(1234.0, -777.0, 0.0), near(3000.0, 3000.0, 0.0);
+  for (const int cells : {64, 4}) {
+    const CloudCache cache =
+        bakeCloudCache({.seed = 5, .heroes = std::span(&hero, 1)}, {}, anchor, {.cells = cells, .cellLayers = 24});
+    const HeroBody& body = cache.heroes.front().body;
+    std::mt19937 random(4);
+    const glm::dvec3 low = body.lowest(), high = body.highest();
+    std::vector<glm::dvec3> points = pointsIn(low, high, 100000, random);
+    const std::vector<glm::dvec3> nearby = pointsIn(ground - near + glm::dvec3(0.0, 0.0, low.z),
+                                                    ground + near + glm::dvec3(0.0, 0.0, high.z), 100000, random);
+    points.insert(points.end(), nearby.begin(), nearby.end());
+    std::size_t inCloud = 0, empty = 0;
+    float densest = 0.0f;
+    for (const glm::dvec3& point : points) {
+      const glm::vec3 p(point - ground);
+      const float sigma = extinctionIn(cache, p), most = majorantAt(cache.majorants, p);
+      ASSERT_LE(sigma, most) << p.x << " " << p.y << " " << p.z;
+      inCloud += sigma > 0.0f;
+      empty += most == 0.0f;
+      densest = std::max(densest, sigma / body.params.high.w);
+    }
+    EXPECT_GT(inCloud, 2000u);
+    if (cells == 64) {
+      EXPECT_GT(empty, 20000u);
+    }
+    if (GetParam() == HeroShape::classic) {
+      EXPECT_GT(densest, 1.2f);
+    }
   }
-  EXPECT_GT(inCloud, 2000u);
-  EXPECT_GT(empty, 20000u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Scattered, testing::Values(HeroShape::towers, HeroShape::classic));
 
 }  // namespace
 }  // namespace welkin

@@ -28,6 +28,23 @@ Image transmittance(const Scene& scene) {
   return stage.draw(stage.view, frame);
 }
 
+// Sums over the picture.
+struct Loss {
+  double clouded = 0.0, lost = 0.0;
+};
+Loss lossOf(Scene scene) {
+  scene.quality.lightVolume = false;
+  const Image all = transmittance(scene);
+  scene.quality.lightVolume = true;
+  const Image skipping = transmittance(scene);
+  Loss loss;
+  for (std::size_t i = 0; i < all.pixels.size(); i += 4) {
+    loss.clouded += 1.0 - all.pixels[i];
+    loss.lost += static_cast<double>(skipping.pixels[i]) - all.pixels[i];
+  }
+  return loss;
+}
+
 TEST_P(Clearance, LosesNoCloud) {
   const Case& c = GetParam();
   Scene scene = plainScene(c.shape);
@@ -42,16 +59,8 @@ TEST_P(Clearance, LosesNoCloud) {
   }
   scene.camera.position.z = c.height;
   scene.camera.pitch = c.pitch;
-  scene.quality.lightVolume = false;
-  const Image all = transmittance(scene);
-  scene.quality.lightVolume = true;
-  const Image skipping = transmittance(scene);
-  double clouded = 0.0, lost = 0.0;
-  for (std::size_t i = 0; i < all.pixels.size(); i += 4) {
-    clouded += 1.0 - all.pixels[i];
-    lost += static_cast<double>(skipping.pixels[i]) - all.pixels[i];
-  }
-  const double pixels = static_cast<double>(all.pixels.size() / 4);
+  const auto [clouded, lost] = lossOf(scene);
+  const double pixels = 64.0 * 36.0;
   std::printf("%s: clouded %.3f, lost %.4f\n", c.name, clouded / pixels, lost / clouded);
   ASSERT_GT(clouded, 0.05 * pixels);
   ASSERT_LT(clouded, 0.98 * pixels);
@@ -70,15 +79,7 @@ TEST(Clearance, LosesNoCopy) {
   for (const auto& [height, pitch] : {std::pair(100.0, 0.2f), {6000.0, -0.25f}, {1500.0, 0.02f}}) {
     scene.camera.position = {400.0, -1200.0, height};
     scene.camera.pitch = pitch;
-    scene.quality.lightVolume = false;
-    const Image all = transmittance(scene);
-    scene.quality.lightVolume = true;
-    const Image skipping = transmittance(scene);
-    double clouded = 0.0, lost = 0.0;
-    for (std::size_t i = 0; i < all.pixels.size(); i += 4) {
-      clouded += 1.0 - all.pixels[i];
-      lost += static_cast<double>(skipping.pixels[i]) - all.pixels[i];
-    }
+    const auto [clouded, lost] = lossOf(scene);
     std::printf("from %.0f m: clouded %.3f, lost %.4f\n", height, clouded / (64.0 * 36.0), lost / clouded);
     ASSERT_GT(clouded, 0.05 * 64.0 * 36.0);
     // Small clouds far away are met by few steps, which fall in other places.

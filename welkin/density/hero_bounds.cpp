@@ -29,7 +29,12 @@ HeroBounds::HeroBounds(const law::HeroParams& hero, const law::HeroParts& parts,
       texels_(glm::vec3(shape.width, shape.height, shape.depth) / (glm::vec3(hero.high) - glm::vec3(hero.low))),
       billowTexels_(static_cast<float>(billows.width())), normalX_(shape, 0, TexelBounds::Kind::box),
       normalY_(shape, 1, TexelBounds::Kind::box), normalZ_(shape, 2, TexelBounds::Kind::box),
-      depth_(shape, 3, TexelBounds::Kind::box), billows_(billows) {}
+      depth_(shape, 3, TexelBounds::Kind::box), billows_(billows) {
+  const glm::vec3 place(c_.place), reach(1e6f, 1e6f, 0.0f);
+  if (c_.scatter.place.w > 0.0f)
+    most_ =
+        aloneIn({place - reach + glm::vec3(0.0f, 0.0f, c_.low.z), place + reach + glm::vec3(0.0f, 0.0f, c_.high.z)});
+}
 
 float HeroBounds::extinctionIn(const glm::vec3& low, const glm::vec3& high) const {
   return c_.scatter.place.w > 0.0f ? scatteredIn({low, high}) : aloneIn({low, high});
@@ -47,7 +52,7 @@ float HeroBounds::scatteredIn(const Box& box) const {
     const float most = 1.0f + s.chance.z;
     const bool apart = box.low.z - s.place.z > most * std::max(c_.high.z, 0.0f) ||
                        box.high.z - s.place.z < most * std::min(c_.low.z, 0.0f);
-    return apart ? 0.0f : c_.high.w * 1.0002f;
+    return apart ? 0.0f : most_;
   }
   float found = 0.0f;
   for (float j = first.y; j <= last.y; ++j)

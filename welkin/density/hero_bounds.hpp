@@ -37,6 +37,7 @@ class HeroBounds {
   Interval depthIn(const Box& x, const Interval& base) const;
 
   law::HeroParams c_;
+  float most_ = 0.0f;  // anywhere, 1/m
   const law::HeroParts& parts_;
   glm::vec3 texels_;  // of the shape, per m
   float billowTexels_;
