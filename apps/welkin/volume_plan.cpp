@@ -10,6 +10,7 @@
 #include "apps/welkin/usage_error.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/density/clear_air.hpp"
+#include "welkin/scene/scatterers.hpp"
 
 namespace welkin::app {
 
@@ -52,10 +53,7 @@ double extinctionAtOne(const Scene& scene, VolumeDensity density) {
   if (density == VolumeDensity::normalized) return most;
   if (density == VolumeDensity::extinction) return 1.0;
   // Extinction of droplets: Q 3 LWC / (4 density r).
-  const float diameter = !scene.layers.empty()      ? scene.layers.front().cloud.dropletDiameter
-                         : !scene.classical.empty() ? scene.classical.front().cloud.dropletDiameter
-                                                    : scene.heroes.front().cloud.dropletDiameter;
-  const double radius = 0.5e-6 * diameter;
+  const double radius = 0.5e-6 * leadingScatterers(scene)->dropletDiameter;
   return 0.75 * kExtinctionEfficiency / (kWaterDensity * radius);
 }
 

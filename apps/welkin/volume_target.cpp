@@ -30,18 +30,9 @@ std::string suffixFor(VolumeTarget target) {
 }
 
 VolumeMedium mediumOf(const Scene& scene, VolumeDensity density) {
-  // One medium for all clouds: the droplets of the first layer, or else of the first classical or hero cloud.
   const double extinction = extinctionAtOne(scene, density);
-  if (scene.layers.empty() && !scene.classical.empty()) {
-    const ClassicalCloud& cloud = scene.classical.front().cloud;
-    return {extinction, cloud.albedo, meanCosine(phaseOf(cloud))};
-  }
-  if (scene.layers.empty()) {
-    const HeroCloud& cloud = scene.heroes.front().cloud;
-    return {extinction, cloud.albedo, meanCosine(phaseOf(cloud))};
-  }
-  const CloudLayer& cloud = scene.layers.front().cloud;
-  return {extinction, cloud.albedo, meanCosine(phaseOf(cloud))};
+  const Scatterers scatterers = *leadingScatterers(scene);
+  return {extinction, scatterers.albedo, meanCosine(scatterers.phase)};
 }
 
 std::string instructionsFor(std::optional<VolumeTarget> target, const VolumeMedium& medium,

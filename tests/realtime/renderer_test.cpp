@@ -229,7 +229,9 @@ TEST(ClosedLayer, HasNoBrightSpots) {
   EXPECT_LT(brightest, 1.35f * median);
 }
 
-// Temporal.
+// Temporal. Since thin edges have no more light than the path tracer gives them the picture itself has a sixth more
+// contrast from pixel to pixel (roughness .062 to .072), and what is not quite at its place differs by so much more:
+// about 1 dB.
 
 Scene movingScene(int interleave) {
   Scene scene;
@@ -285,7 +287,7 @@ TEST(Temporal, TheFirstFramesHaveNoHoles) {
                   like, far, roughness(early), roughness(full));
       // Pixels of the history are two of the picture's: values come from at most 2 x interleave pixels away. At the
       // ground's edge those are seen against another sky.
-      EXPECT_LT(far, 0.06) << frames;
+      EXPECT_LT(far, 0.07) << frames;
       EXPECT_LT(roughness(early), 1.02 * roughness(full)) << frames;
       EXPECT_GT(like, last) << frames;
       last = like;
@@ -316,8 +318,8 @@ TEST(Temporal, TheFirstFramesOfAMovingCameraAreFilledIn) {
     const Image full = lastOfWalk(stage, 1, frames - 1, frames), early = lastOfWalk(stage, 4, 0, frames);
     const double like = displayedPsnr(early, full);
     std::printf("moving, %2d frames: %.1f dB\n", frames, like);
-    // 30.2 and 31.1 dB; were pixels to wait for their turn as they were in the first frame, 4.5 and 3.3 less.
-    EXPECT_GT(like, 30.0) << frames;
+    // 29.0 and 29.7 dB; were pixels to wait for their turn as they were in the first frame, 4.5 and 3.3 less.
+    EXPECT_GT(like, 28.8) << frames;
   }
 }
 
@@ -347,10 +349,9 @@ TEST(Temporal, AMovingCameraStaysNearTheFullMarch) {
   std::printf("moving: 2x2 %.1f dB, 4x4 %.1f dB, 4x4 without history %.1f dB\n", two, four,
               displayedPsnr(lastFrame(4, true), full));
   // A pixel of the history is 0.75 deg wide here; what is carried on softens silhouettes within it.
-  // Measured 32.6 and 32.1, without history 22.5; with the brighter bases of a sky light by the mean 33.4, 32.6
-  // and 22.8.
-  EXPECT_GT(two, 32.2);
-  EXPECT_GT(four, 31.7);
+  // Measured 31.3 and 30.7, without history 21.7.
+  EXPECT_GT(two, 31.0);
+  EXPECT_GT(four, 30.4);
   // Control: one frame's sixteenth of the pixels, without history.
   EXPECT_LT(displayedPsnr(lastFrame(4, true), full), four - 1.0);
 }
@@ -421,9 +422,10 @@ TEST(Temporal, TurningKeepsThePictureSharp) {
     const double pitching = psnrInMotion(stage, scene, {.pitch = pixels * pixel});
     const double turning = psnrInMotion(stage, scene, {.heading = pixels * pixel});
     std::printf("%.2f pixels a frame: pitching %.1f dB, turning %.1f dB\n", pixels, pitching, turning);
-    // Measured 32.1 to 34.2; with the history's grid held to the screen 29.0 to 33.0, pitching at most 30.5.
-    EXPECT_GT(pitching, 31.8) << pixels;
-    EXPECT_GT(turning, 31.8) << pixels;
+    // Measured 31.1 to 33.1; with the history's grid held to the screen, and 1 dB more to be had, 29.0 to 33.0,
+    // pitching at most 30.5.
+    EXPECT_GT(pitching, 30.9) << pixels;
+    EXPECT_GT(turning, 30.9) << pixels;
   }
 }
 

@@ -108,7 +108,7 @@ FN Vec2 heroAnvil(IN(Vec3) x, IN(HeroParams) c) {
   Real away = sqrt(vx * vx + x.y * x.y) + 1e-3f;
   Vec2 way = Vec2(vx, x.y) / away;
   Real rim = c.anvilRadius * (1.0f + 0.3f * perlinFbm2(way * 2.2f, 0, 2, 2, 0.5f, uint(c.seed) + 3u) +
-                              0.12f * perlinFbm2(way * 9.0f, 0, 2, 2, 0.5f, uint(c.seed) + 5u));
+                              0.08f * perlinFbm2(way * 9.0f, 0, 3, 2, 0.5f, uint(c.seed) + 5u));
   Real t = away / rim;
   Real up = sqrt(x.x * x.x + x.y * x.y) + 1e-3f;
   Real core = up / (0.35f * c.anvilRadius);
@@ -121,10 +121,10 @@ FN Vec2 heroAnvil(IN(Vec3) x, IN(HeroParams) c) {
   Real thin = saturate(1.0f - t);
   Real bottom = c.anvilTop - th * (1.1f * thin + 0.12f + 1.2f * plume + 0.3f * swell * thin);
   Vec2 from = Vec2(x.x, x.y) / up;
-  Real fibre = 0.5f + perlinFbm3(Vec3(from.x * 9.0f, from.y * 9.0f, x.z / (0.8f * th) + up / (0.8f * c.anvilRadius)), 0, 4,
-                                 2, 0.6f, uint(c.seed) + 11u);
+  Vec3 along = Vec3(from.x * 20.0f, from.y * 20.0f, x.z / (0.8f * th) + up / (0.8f * c.anvilRadius));
+  Real fibre = 0.5f + perlinFbm3(along, 0, 4, 2, 0.6f, uint(c.seed) + 11u);
   Real depth = min(min(top - x.z, x.z - bottom), (rim - away) * 0.3f);
-  depth -= 0.45f * th * saturate(fibre) * smoothstep(0.15f, 0.75f, t);
+  depth -= 0.45f * th * saturate(fibre) * smoothstep(0.15f, 0.9f, t);
   Real ice = smoothstep(0.0f, c.anvilRamp, depth);
   return Vec2(ice * mix(Real(1.0f), Real(0.25f), saturate(t)), ice);
 }

@@ -130,7 +130,7 @@ float HeroBounds::anvilIn(const Box& x) const {
     const float dy = std::max({x.low.y, -x.high.y, 0.0f});
     return std::sqrt(dx * dx + dy * dy);
   };
-  const float widest = c_.anvilRadius * (1.0f + (0.3f + 0.12f) * kPerlinMost), th = c_.anvilThickness;
+  const float widest = c_.anvilRadius * (1.0f + (0.3f + 0.08f) * kPerlinMost), th = c_.anvilThickness;
   const float away = awayFrom(c_.anvilX), t = away / widest, thin = 1.0f - t;
   if (t >= 1.0f) return 0.0f;
   const float core = awayFrom(0.0f) / (0.35f * c_.anvilRadius), dome = awayFrom(0.0f) / (0.11f * c_.anvilRadius);

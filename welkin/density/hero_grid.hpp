@@ -5,7 +5,7 @@
 
 namespace welkin {
 
-constexpr double kHeroGridVoxels = 4e6;  // in the box of one cloud, by choice
+constexpr double kHeroGridVoxels = 16e6;  // in the box of one cloud, by choice
 
 // The cloud as it is at `time` (s), in still air: the wind has not moved it. Voxels are cubes, about `voxels` of them
 // in its box. `seed` is the scene's.

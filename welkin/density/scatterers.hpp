@@ -19,7 +19,7 @@ Field albedoRow() {
 }
 template <auto Phase>
 Field phaseRow() {
-  return field<Phase>("phase", "phase function, for the path tracer");
+  return field<Phase>("phase", "phase function; in real time that of the first cloud serves all");
 }
 template <auto Diameter>
 Field dropletRow() {

@@ -41,9 +41,10 @@ struct FieldTable<LightingSettings> {
   static auto make() {
     return fieldRows(
         field<&LightingSettings::model>("model", "the lighting model"),
-        field<&LightingSettings::phase>("phase",
-                                        "phase function of light that is scattered once: two lobes, or the fit to "
-                                        "the first layer's droplets"),
+        field<&LightingSettings::phase>(
+            "phase",
+            "phase function of light that is scattered once: two lobes, or that of the first "
+            "cloud: layer, or else classical cloud, hero cloud or volume"),
         field<&LightingSettings::octaves>("octaves", {1, 8}, {},
                                           "octaves of multiple scattering, where quality.light_volume is off"),
         field<&LightingSettings::contribution>("contribution", {0, 1}, {},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "welkin/scene/rain.hpp"
 #include "welkin/scene/scatterers.hpp"
@@ -98,9 +99,8 @@ SkyLight belowSheets(const Scene& scene, SkyLight light, float sunHeight) {
 }
 
 // What light that is turned aside once sends toward the eye, as a share of an irradiance of 1: 1/4 in a medium that
-// scatters evenly, less since cells of the light volume are blurred; by FLIP on bench/error.cpp's cumulus and
-// stratocumulus.
-constexpr float kOnce = 0.2f;
+// scatters evenly; by FLIP on bench/error.cpp's cumulus, stratocumulus and cumulonimbus.
+constexpr float kOnce = 0.3f;
 
 // Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
 // top: by eye, until it is fitted to a reference.
@@ -177,8 +177,9 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   m.transportPath = std::min(0.86f / (0.14f * std::max(extinction, 1e-4f)), 300.0f);
   m.once = kOnce;
   m.octaves = l.octaves;
-  if (l.phase == PhaseModel::droplets && !scene.layers.empty()) {
-    const law::MiePhase mie = phaseOf(scene.layers.front().cloud);
+  const std::optional<Scatterers> scatterers = leadingScatterers(scene);
+  if (l.phase == PhaseModel::droplets && scatterers) {
+    const law::MiePhase& mie = scatterers->phase;
     m.droplets = {mie.gHG, mie.gDraine, mie.alpha, mie.wDraine};
     m.useDroplets = 1;
   }

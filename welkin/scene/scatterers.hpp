@@ -1,10 +1,9 @@
 #pragma once
 // Phase functions of what a scene's clouds are made of.
-#include "welkin/density/classical/settings.hpp"
-#include "welkin/density/grid_cloud.hpp"
-#include "welkin/density/hero.hpp"
-#include "welkin/density/layer.hpp"
+#include <optional>
+
 #include "welkin/light/phase.hpp"
+#include "welkin/scene/scene.hpp"
 
 namespace welkin {
 
@@ -13,5 +12,15 @@ law::MiePhase phaseOf(const CloudLayer& cloud);
 law::MiePhase phaseOf(const GridCloud& cloud);
 law::MiePhase phaseOf(const ClassicalCloud& cloud);
 law::MiePhase phaseOf(const HeroCloud& cloud);
+
+// What light meets in a cloud.
+struct Scatterers {
+  float albedo, dropletDiameter;  // um
+  law::MiePhase phase;
+};
+
+// Of the cloud that stands for all where a renderer or a file has but one kind: the first layer, or else the first
+// classical cloud, hero cloud or volume. None where there are only sheets.
+std::optional<Scatterers> leadingScatterers(const Scene& scene);
 
 }  // namespace welkin

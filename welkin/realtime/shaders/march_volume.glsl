@@ -14,6 +14,8 @@ const float kShortPath = 100.0, kLongPath = 300.0;  // m; a cell of the light vo
 // Lumps of cloud smaller than a cell of the volume: how wide they are (m, and share of the height of all clouds at most),
 // and how much light without direction there is at the sunlit face of one that is thick.
 const float kLump = 250.0, kLumpHeight = 0.15, kLumpLight = 0.15;
+const float kThin = 1.0, kThick = 4.6;  // optical depths of a ray: it sees through the cloud; it may have ended early
+const float kPeak = 0.5;             // share of the sky in a thin cloud that comes from right behind it
 const float kOutside = 0.5;          // share of the depth outside the outlines that is taken for clear, within 4 steps
 
 float spacingAt(float t, MarchParams m) {
@@ -44,6 +46,7 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
   float fineLeft = 0.0, points = 0.0, samples = 0.0;
   float transmittance = 1.0;
   vec3 radiance = vec3(0.0);
+  vec3 onceRadiance = vec3(0.0), turnedRadiance = vec3(0.0);  // of light that has been turned aside once, or often
   vec2 depth = vec2(0.0);  // weighted sum, weights
 
   for (int turn = 0; turn < m.maxTurns; ++turn) {
@@ -116,14 +119,15 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
     float lump = 1.0 - exp(-kReduced * min(kLump, kLumpHeight / inverseShell) * found.x);
     float within = min(0.5 * (lightVolumeCoarseness(level, uVolume) - 1.0), 1.0);
     spread.x = max(spread.x, kLumpLight * within * lump * forward);
-    // Light that has been turned aside once comes from that path too, on which it falls with the depth toward the sun.
+    // Light that has been turned aside once comes from that path too, on which it falls with the depth toward the sun;
+    // where little light has lost its direction the cloud is too thin for it.
     float here = textureLod(uSun, lightVolumePlace(level, q, uVolume), 0.0).x;
     float falls = kReduced * (textureLod(uSun, deeper, 0.0).x - here) * (m.transportPath / path);
-    float once = m.once * forward / max(1.0 + falls, 0.5);
-    float turned = (spread.x + once) * 0.318309886;
-    vec3 source = sunlight * ((first * straight + broad * (forward - straight)) * powder + turned);
-    source += m.ambientSky.xyz * (m.ambientSky.w * spread.y);
-    source += ground * (m.ambientGround.w * (1.0 - spread.y));
+    float once = m.once * forward * min(10.0 * spread.x, 1.0) / max(1.0 + falls, 0.5);
+    vec3 source = sunlight * ((first * straight + broad * (forward - straight)) * powder);
+    vec3 turned = sunlight * (spread.x * 0.318309886);
+    turned += m.ambientSky.xyz * (m.ambientSky.w * spread.y);
+    turned += ground * (m.ambientGround.w * (1.0 - spread.y));
 #ifdef LIGHTNING
     source += skyLightning(q, sky);
 #endif
@@ -131,6 +135,8 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
     float kept = exp(-found.x * stride);
     float weight = transmittance * (1.0 - kept);
     radiance += source * (weight * m.skyIrradiance.w);
+    onceRadiance += sunlight * (once * 0.318309886 * weight * m.skyIrradiance.w);
+    turnedRadiance += turned * (weight * m.skyIrradiance.w);
     depth += weight * vec2(t, 1.0);
     transmittance *= kept;
     points += 1.0;
@@ -140,8 +146,18 @@ MarchResult march(vec3 dir, float limit, vec3 sunLow, vec3 sunHigh, vec3 jitter,
     if (transmittance < m.earlyExit) break;
   }
 
+  // Of what a thin cloud takes out of a ray only a part has lost its direction; for the rest comes what stands behind,
+  // blurred by the forward peak. Light that has been turned aside once is not yet told from single scattering before the
+  // third.
+  float whole = -log(max(transmittance, 1e-6));
+  float opaque = smoothstep(kThin, kThick, whole);
+  float lost = mix((1.0 - exp(-kReduced * whole)) / max(1.0 - transmittance, 1e-6), 1.0, opaque);
+  float thrice = mix(1.0 - transmittance * (1.0 + whole * (1.0 + 0.5 * whole)), 1.0, opaque);
+  vec3 above = mix(m.ambientSky.xyz, lookupSky(uSkyView, uAir, dir), kPeak) * m.ambientSky.w;
+  vec3 behind = mix(ground * m.ambientGround.w, above, smoothstep(-0.3, 0.3, dot(dir, up)));
+
   MarchResult r;
-  r.radiance = radiance;
+  r.radiance = radiance + lost * (turnedRadiance + thrice * onceRadiance) + (1.0 - lost) * depth.y * m.skyIrradiance.w * behind;
   r.transmittance = transmittance < m.earlyExit ? 0.0 : transmittance;
   r.depth = depth.y > 1e-4 ? depth.x / depth.y : m.maxDistance;
   // What has been scattered forward arrives nearly from where it came.
