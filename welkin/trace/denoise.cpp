@@ -163,7 +163,7 @@ struct RowSums {
 // How much a pixel so far away can weigh: a window without edges, or what is spread would stand in squares.
 float windowOf(int dx, int dy) {
   const float share = static_cast<float>(dx * dx + dy * dy) / static_cast<float>((kSearch + 1) * (kSearch + 1));
-  return std::max(1.0f - share * share, 0.0f);
+  return squared(std::max(1.0f - share, 0.0f));
 }
 
 // Adds to each pixel of row y the one `dx`, `dy` away, not itself. `distances` are those of the rows from y - kPatch to
