@@ -126,8 +126,8 @@ TEST(Denoise, DimsSpikesThatWouldBeDiscs) {
   EXPECT_NEAR(square(denoise(layers, Outliers::dimmed)), 10.0, 0.2);
 }
 
-// What is spread fades like a soft spot: between neighbours it falls by a fifth of its height; a window that kept its weight
-// to near its edge fell by .3 and drew discs, one with edges ends at once.
+// What is spread fades like a soft spot: between neighbours it falls by a fifth of its height; a window that kept its
+// weight to near its edge fell by .3 and drew discs, one with edges ends at once.
 TEST(Denoise, SpreadsWithoutAnEdge) {
   TraceLayers layers = tracedOf([](int, int) { return 10.0; }, false);
   const float excess = 10.0f * 1200.0f / kSamples;
