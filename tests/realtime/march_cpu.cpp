@@ -206,7 +206,7 @@ Image marchOnCpu(const Scene& scene, const Frame& frame, std::span<const PlacedG
   const Drift drift{scene.wind.speed, scene.wind.from, frame.time};
   const law::PlanetParams planet = planetParams(frame.position);
   const glm::vec3 sun = sunDirection(scene.sun);
-  const SkyTablesCpu sky = bakeSky(scene.atmosphere, sun, std::max(planet.altitude, 0.0f), surfaceAlbedo(scene));
+  const SkyTablesCpu sky = bakeSky(scene.atmosphere, sun, std::max(planet.altitude, 0.0f), airSurface(scene));
   law::Sky in;
   Textures textures;
   for (const Layer& layer : scene.layers) in.layers.push_back(layerParams(layer, frame.position, drift));

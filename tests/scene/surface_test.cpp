@@ -5,15 +5,25 @@
 namespace welkin {
 namespace {
 
-TEST(SurfaceAlbedo, IsTheGroundsWithoutClouds) {
+TEST(AirSurface, IsTheGroundsWithoutClouds) {
   Scene scene;
   scene.layers.clear();
-  EXPECT_EQ(surfaceAlbedo(scene), scene.ground.albedo);
+  const AirSurface surface = airSurface(scene);
+  EXPECT_EQ(surface.ground, scene.ground.albedo);
+  EXPECT_EQ(surface.clouds, 0.0f);
 }
 
-TEST(SurfaceAlbedo, NeverExceedsOne) {
-  EXPECT_EQ(surfaceAlbedo(glm::vec3(1.0f), 0.4f), glm::vec3(1.0f));
-  EXPECT_EQ(surfaceAlbedo(glm::vec3(0.0f), 0.4f), glm::vec3(0.4f));
+TEST(AirSurface, SpansAllLayers) {
+  Scene scene;
+  scene.layers.resize(2);
+  scene.layers[0].cloud.base = 800.0f;
+  scene.layers[0].cloud.thickness = 400.0f;
+  scene.layers[1].cloud.base = 2000.0f;
+  scene.layers[1].cloud.thickness = 500.0f;
+  const AirSurface surface = airSurface(scene);
+  EXPECT_EQ(surface.cloudBottom, 800.0f);
+  EXPECT_EQ(surface.cloudTop, 2500.0f);
+  EXPECT_GT(surface.clouds, 0.0f);
 }
 
 }  // namespace

@@ -12,12 +12,12 @@ struct AtmosphereParams {
   vec4 sunIrradiance;  // xyz outside the atmosphere, on a plane facing the sun (klx); w 1 when it is the moon
   vec4 secondDirection;   // xyz unit vector toward a second light of the air, w 1 when there is one
   vec4 secondIrradiance;  // xyz outside the atmosphere (klx); w airglow at the zenith (kcd/m^2)
-  vec4 groundAlbedo;   // xyz
+  vec4 groundAlbedo;   // xyz; w: share of the light that clouds send back up
   float groundRadius, thickness, ozoneHeight, haze;
   float hazeFalloff, cameraAltitude, horizonElevation, aerialRange;
   float radianceScale;
   int skyKind;         // what fills the sky-view table: 0 this air, 1 Preetham, 2 gradient
-  int pad0, pad1;
+  float cloudBottom, cloudTop;  // m, of those clouds
 };
 
 const float kTransmittanceWidth = 256.0f;

@@ -40,7 +40,7 @@ double roughSkyLuminance(const FarLight& light) {
 }
 
 law::AtmosphereParams makeAtmosphereParams(const Atmosphere& a, const SkyLights& lights, double cameraAltitude,
-                                           const glm::vec3& groundAlbedo) {
+                                           const AirSurface& surface) {
   law::AtmosphereParams p{};
   const double* const rayleigh = kRayleigh[static_cast<std::size_t>(a.coefficients)];
   const double* const ozones = kOzone[static_cast<std::size_t>(a.coefficients)];
@@ -65,7 +65,9 @@ law::AtmosphereParams makeAtmosphereParams(const Atmosphere& a, const SkyLights&
   const bool two = luminance(lights.second.irradiance) > 0.0f;
   p.secondDirection = glm::vec4(glm::normalize(lights.second.direction), two ? 1.0f : 0.0f);
   p.secondIrradiance = glm::vec4(lights.second.irradiance, lights.airglow);
-  p.groundAlbedo = glm::vec4(groundAlbedo, 0.0f);
+  p.groundAlbedo = glm::vec4(surface.ground, surface.clouds);
+  p.cloudBottom = surface.cloudBottom;
+  p.cloudTop = surface.cloudTop;
 
   const double altitude = std::max(cameraAltitude, 1.0);
   const double horizon = std::sqrt(altitude * (2 * kGroundRadius + altitude));

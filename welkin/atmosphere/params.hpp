@@ -23,6 +23,17 @@ struct FarLight {
   glm::vec3 irradiance{0.0f};
 };
 
+// What lights the air besides sun and air: the ground, and clouds, which send a share of the light back up; air below
+// them is lit by their undersides and sides (albedoRound).
+struct AirSurface {
+  glm::vec3 ground = kDefaultGroundAlbedo;    // albedo
+  float clouds = 0.0f;                        // share of the light of an evenly bright sky that they reflect
+  float cloudBottom = 0.0f, cloudTop = 0.0f;  // m
+
+  AirSurface() = default;
+  AirSurface(const glm::vec3& albedo) : ground(albedo) {}
+};
+
 // What lights a sky.
 struct SkyLights {
   FarLight light;        // of clouds, ground and air: the sun, or at night the moon
@@ -40,7 +51,7 @@ double roughSkyLuminance(const FarLight& light);
 // Everything that the laws of the air need. Directions are unit vectors, `cameraAltitude` in m above the ground (taken
 // as at least 1 m).
 law::AtmosphereParams makeAtmosphereParams(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
-                                           const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
+                                           const AirSurface& surface = {});
 
 // Preetham's sky of this turbidity (1.8 to 10). Below the horizon, where the model ends, the sun's sky is that of
 // sunset dimmed by 2^(1.1 elevation in degrees), as twilight is. The moon's is the sun's, as much fainter as its light.

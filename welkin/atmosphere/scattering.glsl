@@ -30,6 +30,16 @@ FN Vec3 groundRadiance(IN(Vec3) albedo, IN(Vec3) sunIrradiance, IN(Real) sunCosi
   return albedo * (sunIrradiance * max(sunCosine, 0.0f) + skyIrradiance) * 0.318309886f;
 }
 
+// Albedo of a ground that lights a point of the air as ground and clouds do. Air below them is lit by their undersides
+// and sides: kCloudsAbove of what it would get from their tops, by the path tracer's hazy air under broken clouds.
+const float kCloudsAbove = 0.6f;
+FN Vec3 albedoRound(IN(AtmosphereParams) air, IN(Real) altitude) {
+  Real above = smoothstep(air.cloudBottom, max(air.cloudTop, air.cloudBottom + 1.0f), altitude);
+  Real clouds = air.groundAlbedo.w * mix(Real(kCloudsAbove), Real(1.0f), above);
+  Vec3 ground = xyz(air.groundAlbedo);
+  return Vec3(clouds) + ground * ((1.0f - clouds) * (1.0f - clouds)) / (Vec3(1.0f) - ground * clouds);
+}
+
 // One direction of multiScatteringTexel: adds the second order's radiance for isotropic scattering and the share of
 // uniform light that is scattered once more.
 FN void addSecondOrder(IN(Sampler2) transmittance, IN(AtmosphereParams) air, IN(Real) altitude, IN(Real) sunCosine,
@@ -62,7 +72,7 @@ FN void addSecondOrder(IN(Sampler2) transmittance, IN(AtmosphereParams) air, IN(
   }
   Real sunGround = sunCosineAlong(air, altitude, sunCosine, cosSun, end, 0.0f);
   Vec3 direct = lookupTransmittanceToSun(transmittance, air, 0.0f, sunGround);
-  Vec3 bounce = through * groundRadiance(xyz(air.groundAlbedo), direct, sunGround, Vec3(0.0f));
+  Vec3 bounce = through * groundRadiance(albedoRound(air, altitude), direct, sunGround, Vec3(0.0f));
   second += select(hit, bounce, Vec3(0.0f));
 }
 

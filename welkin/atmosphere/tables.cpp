@@ -45,8 +45,8 @@ void paintUserRow(const law::AtmosphereParams& air, const SkyModel& user, int y,
 }  // namespace
 
 SkyParams makeSkyParams(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
-                        const glm::vec3& groundAlbedo) {
-  return {makeAtmosphereParams(atmosphere, lights, cameraAltitude, groundAlbedo),
+                        const AirSurface& surface) {
+  return {makeAtmosphereParams(atmosphere, lights, cameraAltitude, surface),
           makePreethamParams(atmosphere.turbidity, lights), makeGradientParams(atmosphere)};
 }
 
@@ -177,9 +177,9 @@ SkyLight computeSkyLight(const SkyParams& params, const AirTables& air, const Sk
 }
 
 SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
-                     const glm::vec3& groundAlbedo, const SkyModel* user) {
+                     const AirSurface& surface, const SkyModel* user) {
   SkyTablesCpu sky;
-  sky.params = makeSkyParams(atmosphere, lights, cameraAltitude, groundAlbedo);
+  sky.params = makeSkyParams(atmosphere, lights, cameraAltitude, surface);
   sky.air = bakeAir(sky.params.air);
   sky.skyView = bakeSkyView(sky.params, sky.air, user);
   bakeAerial(sky.params, sky.air, sky.aerialInscatter, sky.aerialTransmittance);
@@ -187,9 +187,9 @@ SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const SkyLights& lights, doub
   return sky;
 }
 
-SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const Sun& sun, double cameraAltitude, const glm::vec3& groundAlbedo,
+SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const Sun& sun, double cameraAltitude, const AirSurface& surface,
                      const SkyModel* user) {
-  return bakeSky(atmosphere, ::welkin::sunDirection(sun), cameraAltitude, groundAlbedo, user);
+  return bakeSky(atmosphere, ::welkin::sunDirection(sun), cameraAltitude, surface, user);
 }
 
 }  // namespace welkin

@@ -43,7 +43,7 @@ struct SkyParams {
   law::GradientParams gradient;
 };
 SkyParams makeSkyParams(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
-                        const glm::vec3& groundAlbedo = kDefaultGroundAlbedo);
+                        const AirSurface& surface = {});
 
 // The sky's light for things that are lit by all of it.
 struct SkyLight {
@@ -76,8 +76,8 @@ SkyLight computeSkyLight(const SkyParams& params, const AirTables& air, const Sk
 
 // All tables of a sky. `user`, when given, paints the sky above the horizon in place of atmosphere.model.
 SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
-                     const glm::vec3& groundAlbedo = kDefaultGroundAlbedo, const SkyModel* user = nullptr);
+                     const AirSurface& surface = {}, const SkyModel* user = nullptr);
 SkyTablesCpu bakeSky(const Atmosphere& atmosphere, const Sun& sun, double cameraAltitude,
-                     const glm::vec3& groundAlbedo = kDefaultGroundAlbedo, const SkyModel* user = nullptr);
+                     const AirSurface& surface = {}, const SkyModel* user = nullptr);
 
 }  // namespace welkin

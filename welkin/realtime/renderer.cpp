@@ -14,7 +14,6 @@
 #include "welkin/atmosphere/moon.hpp"
 #include "welkin/base/error.hpp"
 #include "welkin/density/hero_grid.hpp"
-#include "welkin/density/reflectance.hpp"
 #include "welkin/gl/state.hpp"
 #include "welkin/noise/blue_noise.hpp"
 #include "welkin/noise/textures.hpp"
@@ -123,7 +122,7 @@ struct Renderer::State {
   Scene scene;
   bool hasScene = false;
   int sceneNumber = 0, qualityNumber = 0, cloudsNumber = 0;
-  float cloudsReflect = 0.0f;
+  AirSurface underAir;
   Heavens heavens;
   std::map<std::string, gl::Program> composites;  // by the defines of the variant
   glm::vec3 sunDirection{0.0f, 0.0f, 1.0f};       // of the light: by night it is the moon's
@@ -389,9 +388,10 @@ void Renderer::setScene(const Scene& scene, const CustomTextures& textures) {
   s.sunDirection = s.heavens.lights.light.direction;
   if (!s.sameClouds(scene, textures)) {
     ++s.cloudsNumber;
-    s.cloudsReflect = cloudReflectance(scene.layers, scene.seed);
+    s.underAir = airSurface(scene);
   }
   if (!s.kindred(scene, textures)) ++s.skyNumber;
+  s.underAir.ground = scene.ground.albedo;
   s.makeTextures(scene, textures);
   s.makeWeather(scene, textures);
   s.makeGrids(scene, textures);
@@ -544,8 +544,7 @@ void Renderer::State::makeTargets(View::State& view, const Frame& frame) const {
 
 void Renderer::State::skyPass(const glm::dvec3& position) {
   const double altitude = planetParams(position).altitude;
-  sky.update(scene.atmosphere, heavens.lights, std::max(altitude, 0.0),
-             surfaceAlbedo(scene.ground.albedo, cloudsReflect), userSky.get());
+  sky.update(scene.atmosphere, heavens.lights, std::max(altitude, 0.0), underAir, userSky.get());
 }
 
 // `frames`: over how many it may come.

@@ -70,7 +70,7 @@ SkyTables::SkyTables(const gl::Api& gl)
       aerialTransmittance_(volume(gl)), inscatterSum_{sum(gl), sum(gl)}, throughSum_{sum(gl), sum(gl)} {}
 
 void SkyTables::update(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
-                       const glm::vec3& groundAlbedo, const SkyModel* user) {
+                       const AirSurface& surface, const SkyModel* user) {
   // A camera or sun that has hardly moved keeps the tables as they are.
   const double before = params_.air.cameraAltitude;
   const bool sameAltitude = skyFills_ > 0 && std::abs(cameraAltitude - before) <= std::max(2.0, 0.005 * before);
@@ -78,7 +78,7 @@ void SkyTables::update(const Atmosphere& atmosphere, const SkyLights& lights, do
       skyFills_ > 0 && glm::distance(lights.light.direction, glm::vec3(params_.air.sunDirection)) < 1e-5f;
   SkyLights kept = lights;
   if (sameSun) kept.light.direction = glm::vec3(params_.air.sunDirection);
-  SkyParams next = makeSkyParams(atmosphere, kept, sameAltitude ? before : cameraAltitude, groundAlbedo);
+  SkyParams next = makeSkyParams(atmosphere, kept, sameAltitude ? before : cameraAltitude, surface);
   const std::uint64_t revision = user ? user->revision() : 0;
   const bool airChanged = airFills_ == 0 || !sameBytes(airOnly(next.air), airOnly(params_.air));
   if (!airChanged && skyFills_ > 0 && sameBytes(next, params_) && user == user_ && revision == userRevision_) return;

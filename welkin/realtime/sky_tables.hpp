@@ -18,7 +18,7 @@ class SkyTables {
   // Renders what has changed: the air's tables for new air, the others for a new sun, altitude (by more than 2 m and
   // 0.5 per cent), sky model or ground. `user`, when given, paints the sky in place of atmosphere.model.
   void update(const Atmosphere& atmosphere, const SkyLights& lights, double cameraAltitude,
-              const glm::vec3& groundAlbedo = kDefaultGroundAlbedo, const SkyModel* user = nullptr);
+              const AirSurface& surface = {}, const SkyModel* user = nullptr);
 
   // The uniform values that the tables were made with: lookups take these, not newer ones.
   const SkyParams& params() const { return params_; }

@@ -1,15 +1,20 @@
 #include "welkin/scene/surface.hpp"
 
+#include <algorithm>
+
 #include "welkin/density/reflectance.hpp"
 
 namespace welkin {
 
-glm::vec3 surfaceAlbedo(const glm::vec3& ground, float clouds) {
-  return clouds + (1.0f - clouds) * (1.0f - clouds) * ground / (1.0f - clouds * ground);
-}
-
-glm::vec3 surfaceAlbedo(const Scene& scene) {
-  return surfaceAlbedo(scene.ground.albedo, cloudReflectance(scene.layers, scene.seed));
+AirSurface airSurface(const Scene& scene) {
+  AirSurface s(scene.ground.albedo);
+  s.clouds = cloudReflectance(scene.layers, scene.seed);
+  s.cloudBottom = 1e6f;
+  for (const Layer& layer : scene.layers) {
+    s.cloudBottom = std::min(s.cloudBottom, layer.cloud.base);
+    s.cloudTop = std::max(s.cloudTop, layer.cloud.base + layer.cloud.thickness);
+  }
+  return s;
 }
 
 }  // namespace welkin

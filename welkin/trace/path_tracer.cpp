@@ -85,11 +85,9 @@ PathTracer::PathTracer(const Scene& scene, const TraceInputs& inputs, const Trac
   KernelScene& k = b.kernel;
   k.planet = planetParams(eye);
   const Heavens heavens = heavensOf(scene.sun, scene.moon, scene.night);
-  b.sky =
-      bakeSky(scene.atmosphere, heavens.lights, std::max(k.planet.altitude, 0.0f), surfaceAlbedo(scene), inputs.sky);
+  b.sky = bakeSky(scene.atmosphere, heavens.lights, std::max(k.planet.altitude, 0.0f), airSurface(scene), inputs.sky);
   k.clouds = &b.clouds;
   k.air = b.sky.params.air;
-  k.air.groundAlbedo = glm::vec4(scene.ground.albedo, 0.0f);
   k.airScatters = settings.air == AirModel::medium && scene.atmosphere.model == SkyKind::physical && !inputs.sky;
   k.airBounds = airBounds(k.air);
   k.transmittance = b.sky.air.transmittance.view();
