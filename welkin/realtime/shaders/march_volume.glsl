@@ -13,7 +13,7 @@ const float kEyeStep = 2.0, kEyeGrowth = 0.12;  // m and share of the distance: 
 const float kShortPath = 100.0, kLongPath = 300.0;  // m; a cell of the light volume, and the longest
 // Lumps of cloud smaller than a cell of the volume: how wide they are (m, and share of the height of all clouds at most),
 // and how much light without direction there is at the sunlit face of one that is thick.
-const float kLump = 250.0, kLumpHeight = 0.15, kLumpLight = 0.15;
+const float kLump = 250.0, kLumpHeight = 0.15, kLumpLight = 0.1;
 const float kThin = 1.0, kThick = 4.6;  // optical depths of a ray: it sees through the cloud; it may have ended early
 const float kPeak = 0.5;             // share of the sky in a thin cloud that comes from right behind it
 const float kOutside = 0.5;          // share of the depth outside the outlines that is taken for clear, within 4 steps
