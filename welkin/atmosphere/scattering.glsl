@@ -63,9 +63,13 @@ FN void addSecondOrder(IN(Sampler2) transmittance, IN(AtmosphereParams) air, IN(
     Vec3 d = airDensity(air, h);
     Vec3 scattering = xyz(air.rayleigh) * d.x + xyz(air.mieScattering) * d.y;
     Vec3 extinction = xyz(air.rayleigh) * d.x + xyz(air.mieExtinction) * d.y + xyz(air.ozone) * d.z;
-    Vec3 share = through * scattering * stepIntegral(extinction, dt);
+    Vec3 left = through * stepIntegral(extinction, dt);
+    Vec3 share = left * scattering;
+    // What aerosol scatters forward is not yet spread over all directions: g^2 of it (delta-Eddington).
+    float g = air.mieExtinction.w;
+    Vec3 turned = left * (xyz(air.rayleigh) * d.x + xyz(air.mieScattering) * ((1.0f - g * g) * d.y));
     Real sun = sunCosineAlong(air, altitude, sunCosine, cosSun, there, h);
-    second += share * lookupTransmittanceToSun(transmittance, air, h, sun) * kInv4Pi;
+    second += turned * lookupTransmittanceToSun(transmittance, air, h, sun) * kInv4Pi;
     again += share;
     through = through * exp(-extinction * dt);
     t = tNext;

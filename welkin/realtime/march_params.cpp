@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "welkin/atmosphere/params.hpp"
 #include "welkin/scene/rain.hpp"
 #include "welkin/scene/scatterers.hpp"
 
@@ -102,6 +103,19 @@ SkyLight belowSheets(const Scene& scene, SkyLight light, float sunHeight) {
 // scatters evenly; by FLIP on bench/error.cpp's cumulus, stratocumulus and cumulonimbus.
 constexpr float kOnce = 0.3f;
 
+// What aerosol, which scatters forward, sends along a level ray of the light below clouds, against the same light from
+// all directions above: it comes from near the horizon, where an overcast sky is 3/7 as bright (Moon and Spencer 1942)
+// and the most of it passes on the darker way from there; by the path tracer's hazy air under a closed deck and under
+// broken clouds.
+constexpr float kLevelLight = 0.55f;
+
+// Share of the aerosol in what air at the ground scatters.
+glm::vec3 aerosolShare(const Atmosphere& atmosphere) {
+  const law::AtmosphereParams air = makeAtmosphereParams(atmosphere, glm::vec3(0.0f, 0.0f, 1.0f), 0.0);
+  const glm::vec3 mie = glm::vec3(air.mieScattering) * (1.0f + air.haze);
+  return mie / (mie + glm::vec3(air.rayleigh));
+}
+
 // Light that has been scattered so often that it comes from above without direction, as a share of what falls on the
 // top: by eye, until it is fitted to a reference.
 constexpr float kDiffusedShare = 0.22f;
@@ -152,7 +166,9 @@ law::MarchParams marchParams(const Scene& scene, const law::PlanetParams& planet
   if (m.top < m.bottom) m.bottom = -10.0f, m.top = -5.0f;  // below ground: no ray marches
   m.skyIrradiance = glm::vec4(diffuse, albedo);
   // Air in the shade sees the clouds above, the gaps between them, and the ground.
-  const glm::vec3 below = 0.5f * (glm::vec3(1.0f) + scene.ground.albedo);
+  const glm::vec3 aerosol = aerosolShare(scene.atmosphere);
+  const glm::vec3 below =
+      0.5f * (glm::vec3(1.0f) + scene.ground.albedo) * (glm::vec3(1.0f) - (1.0f - kLevelLight) * aerosol);
   m.shadedAir = q.lightVolume && l.model != LightingModel::nubis ? glm::vec4(below / 3.14159265f, 0.0f)
                                                                  : glm::vec4(below * diffuse / 3.14159265f, veil.cover);
   m.rain = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f - veil.cover);
