@@ -111,32 +111,34 @@ INSTANTIATE_TEST_SUITE_P(Places, Cameras,
                          [](const auto& place) { return std::string(place.param.name); });
 
 // A close view of a cloud's side. Weather is no periodic pattern, so far away there stand other clouds: the measure is
-// the mean over eight headings.
+// the mean over so many headings.
+constexpr int kHeadings = 32;
 struct CloseUp {
   double brightness = 0.0, cover = 0.0, roughness = 0.0;
 };
 CloseUp closeUp(Stage& stage, double east) {
   CloseUp sum;
-  for (int heading = 0; heading < 8; ++heading) {
+  for (int heading = 0; heading < kHeadings; ++heading) {
     Scene scene = plainScene(LayerShape::profile);
     scene.layers[0].weather.population = Population::cells;
     scene.layers[0].weather.coverage = 1.0f;
     scene.sun.elevation = 1.57f;
     scene.camera.position = overGround(east, 4200.0);
-    scene.camera.heading = 0.785f * static_cast<float>(heading);
+    scene.camera.heading = 6.2831853f / kHeadings * static_cast<float>(heading);
     // The view follows the ground: up leans by the arc.
     scene.camera.pitch = -0.9f - static_cast<float>(std::asin(east / kPlanetRadius) * std::sin(scene.camera.heading));
     scene.camera.fov = 0.1f;
     const Image image = stage.draw(scene);
     const Statistics s = statistics(image);
-    sum.brightness += s.mean / 8.0;
-    sum.roughness += roughness(image) / 8.0;
+    sum.brightness += s.mean / kHeadings;
+    sum.roughness += roughness(image) / kHeadings;
   }
   return sum;
 }
 
 // Floats resolve 0.06 m at 1000 km; had positions not been split into cell and fraction in double precision, a pixel of
-// this view (1.5 m) would show it as steps. Other clouds, other numbers: 35 % allows for the eight views' scatter.
+// this view (1.5 m) would show it as steps. Other clouds, other numbers: 35 % allows for the
+// views' scatter.
 TEST(Precision, CloseUpsLookAlikeFarFromTheOrigin) {
   Stage stage(64, 36);
   const CloseUp here = closeUp(stage, 0.0);
