@@ -61,7 +61,7 @@ TEST(AirShade, DoesNotDependOnTheJitter) {
   scene.layers.clear();
   const Image clear = stage.draw(scene);
   // Clouds whiten near air and take the sun from far air: path-traced (256 paths of a pixel) the blue is .80 of that of
-  // the same air without clouds, the luminance 1.00.
+  // the same air without clouds, the luminance 1.00. A volume that holds no shade leaves 1 or more.
   const auto blue = [](const Image& image) {
     double sum = 0.0;
     for (std::size_t i = 2; i < image.pixels.size(); i += 3) sum += static_cast<double>(image.pixels[i]);

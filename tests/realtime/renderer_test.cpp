@@ -137,8 +137,8 @@ CloseUp closeUp(Stage& stage, double east) {
 }
 
 // Floats resolve 0.06 m at 1000 km; had positions not been split into cell and fraction in double precision, a pixel of
-// this view (1.5 m) would show it as steps. Other clouds, other numbers: 35 % allows for the
-// views' scatter.
+// this view (1.5 m) would show it as steps. Other clouds, other numbers: 35 % allows for their
+// scatter.
 TEST(Precision, CloseUpsLookAlikeFarFromTheOrigin) {
   Stage stage(64, 36);
   const CloseUp here = closeUp(stage, 0.0);

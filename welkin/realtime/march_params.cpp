@@ -104,9 +104,8 @@ SkyLight belowSheets(const Scene& scene, SkyLight light, float sunHeight) {
 constexpr float kOnce = 0.3f;
 
 // What aerosol, which scatters forward, sends along a level ray of the light below clouds, against the same light from
-// all directions above: it comes from near the horizon, where an overcast sky is 3/7 as bright (Moon and Spencer 1942)
-// and the most of it passes on the darker way from there; by the path tracer's hazy air under a closed deck and under
-// broken clouds.
+// all directions above: it comes from near the horizon, where an overcast sky has 3/7 of its mean brightness (Moon and
+// Spencer 1942). By the path tracer's hazy air, between what a closed deck and broken clouds ask for.
 constexpr float kLevelLight = 0.55f;
 
 // Share of the aerosol in what air at the ground scatters.
